@@ -54,10 +54,10 @@ Results<T> results_of(const simdbezier::Outputs<T>& out, OutputGroups groups) {
 /// Runs call(options), which returns a Status. Returns an empty string, or what went wrong: an
 /// error, or another instruction set than the one that options.isa names.
 template <typename Call>
-std::string run_verified(simdbezier::Options options, Call call) {
-  simdbezier::Isa executed = simdbezier::Isa::automatic;
-  options.executed = &executed;
+std::string run_verified(const simdbezier::Options& options, Call call) {
+  static_cast<void>(simdbezier::take_executed_isa()); // of calls before
   const simdbezier::Status status = call(options);
+  const simdbezier::Isa executed = simdbezier::take_executed_isa();
   if (status != simdbezier::Status::ok) {
     return std::string(simdbezier::to_string(status));
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "bench/limits/limit_kernels.hpp"
 #include "bench/rows.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <benchmark/benchmark.h>
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/version.hpp>
 
 #include "bench/rows.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <omp.h>
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "bench/machine.hpp"
 #include "bench/plugin_rows.hpp"

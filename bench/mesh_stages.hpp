@@ -23,7 +23,7 @@ struct MeshStages {
   std::vector<T> nets;
   simdbezier::PatchSet<T> set;
   simdbezier::Topology topology;
-  std::vector<std::uint32_t> nu, nv, samples_u, samples_v;
+  std::vector<std::uint32_t> cells_u, cells_v, samples_u, samples_v;
   std::vector<std::uint16_t> diagonals;
   std::vector<double> deviations;
   double tolerance = 0;
@@ -36,23 +36,17 @@ struct MeshStages {
     return simdbezier::ControlNets<T>::packed(std::span<const T>(nets), shape.degree_u,
                                               shape.degree_v, 3, weights_of(shape));
   }
-  [[nodiscard]] std::size_t patches() const { return nu.size(); }
+  [[nodiscard]] std::size_t patches() const { return cells_u.size(); }
 
-  Status join(const Options& how) {
-    simdbezier::TopologyOptions options;
-    options.threads = how.threads;
-    return simdbezier::find_topology(views(), topology, options);
-  }
+  Status join(const Options& how) { return simdbezier::find_topology(views(), topology, {}, how); }
   Status choose(const Options& how) {
     simdbezier::RateOptions options;
     options.tolerance = tolerance;
-    options.threads = how.threads;
-    options.isa = how.isa;
-    return simdbezier::choose_rates(views(), topology, options, {nu, nv, diagonals, deviations})
-        .status;
+    const simdbezier::CertifiedRates rates{cells_u, cells_v, diagonals, deviations};
+    return simdbezier::choose_rates(views(), topology, options, rates, how).status;
   }
   Status lay_out(const Options& how) {
-    return simdbezier::lay_out_mesh(topology, {nu, nv, diagonals}, layout, how);
+    return simdbezier::lay_out_mesh(topology, {cells_u, cells_v, diagonals}, layout, how);
   }
   /// Makes room for the samples of grids, and for the vertices and triangles of a mesh.
   bool make_room() {
@@ -145,8 +139,8 @@ std::shared_ptr<MeshStages<T>> make_stages(const MeshKind& kind) {
     return nullptr;
   }
   const std::size_t patches = s.set.size();
-  s.nu.assign(patches, 15);
-  s.nv.assign(patches, 15);
+  s.cells_u.assign(patches, 15);
+  s.cells_v.assign(patches, 15);
   s.diagonals.assign(patches, 0);
   s.deviations.assign(patches, 0);
   for (double low = 1e-4, high = 1; kind.adaptive && high / low > 1.01;) {
@@ -156,7 +150,7 @@ std::shared_ptr<MeshStages<T>> make_stages(const MeshKind& kind) {
     }
     double cells = 0;
     for (std::size_t p = 0; p < patches; ++p) {
-      cells += static_cast<double>(s.nu[p]) * s.nv[p] / static_cast<double>(patches);
+      cells += static_cast<double>(s.cells_u[p]) * s.cells_v[p] / static_cast<double>(patches);
     }
     (cells > 7 * 7 ? low : high) = s.tolerance;
   }
@@ -164,8 +158,8 @@ std::shared_ptr<MeshStages<T>> make_stages(const MeshKind& kind) {
     return nullptr;
   }
   for (std::size_t p = 0; p < patches; ++p) {
-    s.samples_u.push_back(s.nu[p] + 1);
-    s.samples_v.push_back(s.nv[p] + 1);
+    s.samples_u.push_back(s.cells_u[p] + 1);
+    s.samples_v.push_back(s.cells_v[p] + 1);
   }
   return s.make_room() ? stages : nullptr;
 }

@@ -79,7 +79,7 @@ public:
   /// A set is opaque, so the positions of a small grid are compared, which determine the patch.
   std::string check() {
     set_ = {};
-    if (const simdbezier::PackReport report = simdbezier::pack(nets_, set_, options_); !report) {
+    if (const simdbezier::Report report = simdbezier::pack(nets_, set_, options_); !report) {
       return std::string(simdbezier::to_string(report.status));
     }
     constexpr std::size_t kSize = 4;

@@ -50,8 +50,7 @@ CURVE_OUTPUTS = struct('CurveOutputs', ('struct_size', SIZE),
                        *((name, VECTORS) for name in 'position d1 d2 tangent'.split()),
                        ('curvature', VALUES), *LAST)
 OPTIONS = struct('Options', ('struct_size', SIZE),
-                 *((name, INT) for name in ('threads', 'not_watertight', 'isa', 'destination')),
-                 ('executed', POINTER))
+                 *((name, INT) for name in ('threads', 'not_watertight', 'isa', 'destination')))
 
 
 def sized(kind, **members):

@@ -102,8 +102,7 @@ public:
         views_(simdbezier::ControlNets<T>::packed(nets_.data(), kCount, shape.degree_u,
                                                   shape.degree_v, 3, weights_of(shape))) {
     options_.tolerance = kTolerance;
-    options_.threads = 1;
-    options_.isa = isa;
+    run_.isa = isa;
     joined_ = simdbezier::find_topology(views_, topology_);
   }
   void operator()() { (void)run(); }
@@ -115,13 +114,14 @@ public:
     }
     const std::size_t values = values_per_patch(shape_);
     for (std::size_t p = 0; p < kCount; ++p) {
-      const CutPatch<T> patch{nets_.data() + p * values, shape_, nu_[p], nv_[p], diagonals_[p]};
+      const CutPatch<T> patch{nets_.data() + p * values, shape_, cells_u_[p], cells_v_[p],
+                              diagonals_[p]};
       if (!(deviation_[p] <= kTolerance)) {
         return "patch " + std::to_string(p) + " has a larger deviation than was asked for";
       }
       for (std::size_t k = 0; k < 16; ++k) {
         const double place = static_cast<double>(k) / 16;
-        if (!(patch.deviation(k % nu_[p], 3 * k % nv_[p], place, 1 - place / 2) <=
+        if (!(patch.deviation(k % cells_u_[p], 3 * k % cells_v_[p], place, 1 - place / 2) <=
               deviation_[p] * (1 + 1e-9))) {
           return "patch " + std::to_string(p) + " is farther from its triangles than was promised";
         }
@@ -135,7 +135,8 @@ public:
 private:
   Status run() {
     return simdbezier::choose_rates(std::span<const simdbezier::ControlNets<T>>(&views_, 1),
-                                    topology_, options_, {nu_, nv_, diagonals_, deviation_})
+                                    topology_, options_,
+                                    {cells_u_, cells_v_, diagonals_, deviation_}, run_)
         .status;
   }
 
@@ -144,9 +145,10 @@ private:
   simdbezier::ControlNets<T> views_;
   simdbezier::Topology topology_;
   simdbezier::RateOptions options_;
+  simdbezier::RunOptions run_ = {.threads = 1};
   Status joined_;
-  std::vector<std::uint32_t> nu_ = std::vector<std::uint32_t>(kCount);
-  std::vector<std::uint32_t> nv_ = std::vector<std::uint32_t>(kCount);
+  std::vector<std::uint32_t> cells_u_ = std::vector<std::uint32_t>(kCount);
+  std::vector<std::uint32_t> cells_v_ = std::vector<std::uint32_t>(kCount);
   std::vector<std::uint16_t> diagonals_ = std::vector<std::uint16_t>(kCount);
   std::vector<double> deviation_ = std::vector<double>(kCount);
 };
@@ -204,7 +206,6 @@ public:
         curves_(simdbezier::ControlCurves<T>::packed(nets_.data(), kCount, shape.degree_u, 3,
                                                      weights_of(shape))) {
     options_.tolerance = kTolerance;
-    options_.threads = 1;
   }
   void operator()() { (void)run(); }
   std::string check() {
@@ -232,7 +233,7 @@ public:
 private:
   Status run() {
     return simdbezier::choose_polylines(curves_, options_, std::span(points_),
-                                        std::span(deviation_))
+                                        std::span(deviation_), {.threads = 1})
         .status;
   }
 

@@ -17,7 +17,7 @@ int main() {
 
   CurveSet<double> curves;
   const auto polygon = ControlCurves<double>::packed(points.data(), 1, 3);
-  if (const PackReport report = pack(polygon, curves); !report) {
+  if (const Report report = pack(polygon, curves); !report) {
     std::fprintf(stderr, "%s\n", to_string(report.status).data());
     return 1;
   }

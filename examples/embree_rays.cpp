@@ -40,11 +40,11 @@ struct Scene {
 Status make(Scene& scene) {
   const auto points = seed::wavy_sheet(kSide);
   MeshOptions options;
-  options.tolerance = 1e-3;
+  options.rates.tolerance = 1e-3;
   const auto nets = ControlNets<float>::packed(points);
   const MeshPlan<float> plan = plan_mesh<float>(nets, options);
   if (!plan) {
-    return plan.status;
+    return plan.report.status;
   }
   scene.positions.resize(plan.layout.size().vertices);
   scene.triangles.resize(plan.layout.size().triangles);

@@ -43,13 +43,13 @@ std::size_t meshlet_triangles(const std::vector<unsigned>& triangles,
 int main() {
   const auto points = seed::wavy_sheet(8);
   MeshOptions options;
-  options.tolerance = 1e-3;
+  options.rates.tolerance = 1e-3;
   const auto nets = ControlNets<float>::packed(points);
   const MeshPlan<float> plan = plan_mesh<float>(nets, options);
   const Mesh<float> mesh = tessellate<float>(nets, options);
   ClusterSize clusters;
   if (!plan || !mesh || !cluster_size(plan.layout, clusters)) {
-    return std::puts(to_string(mesh.status).data());
+    return std::puts(to_string(mesh.report.status).data());
   }
   const std::size_t vertices = mesh.positions.size();
   const std::size_t count = mesh.triangles.size();

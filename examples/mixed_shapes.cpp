@@ -47,8 +47,8 @@ int main() {
 
   PatchSet<double> patches;
   const std::span<const ControlNets<double>> all(nets);
-  if (const PackReport report = pack(all, patches); !report) {
-    std::fprintf(stderr, "patch %zu: %s\n", report.patch, to_string(report.status).data());
+  if (const Report report = pack(all, patches); !report) {
+    std::fprintf(stderr, "patch %zu: %s\n", report.item, to_string(report.status).data());
     return 1;
   }
 

@@ -22,7 +22,7 @@ int main() {
   const std::vector<float> points = seed::coordinates<float>(net.points);
 
   PatchSet<float> patches;
-  if (const PackReport report = pack(ControlNets<float>{points.data(), 1}, patches); !report) {
+  if (const Report report = pack(ControlNets<float>{points.data(), 1}, patches); !report) {
     std::fprintf(stderr, "%s\n", to_string(report.status).data());
     return 1;
   }

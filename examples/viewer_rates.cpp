@@ -19,7 +19,7 @@ struct Model {
   PatchSet<float> set;
   Topology topology;
   std::vector<double> errors, tolerances, deviations;
-  std::vector<std::uint32_t> nu, nv;
+  std::vector<std::uint32_t> cells_u, cells_v;
   std::vector<std::uint16_t> diagonals;
   std::vector<float> vertices; ///< x y z nx ny nz
   std::vector<std::uint32_t> triangles;
@@ -28,15 +28,15 @@ struct Model {
 };
 
 Status prepare(Model& model) {
-  if (const PackReport report = pack(model.nets(), model.set); !report) {
+  if (const Report report = pack(model.nets(), model.set); !report) {
     return report.status;
   }
   const std::size_t patches = model.set.size();
   for (std::vector<double>* const values : {&model.errors, &model.tolerances, &model.deviations}) {
     values->resize(patches);
   }
-  model.nu.resize(patches);
-  model.nv.resize(patches);
+  model.cells_u.resize(patches);
+  model.cells_v.resize(patches);
   model.diagonals.resize(patches);
   const Status status = position_errors(model.set, model.errors);
   return status ? find_topology(model.nets(), model.topology) : status;
@@ -52,12 +52,14 @@ Status draw(Model& model, const Camera& camera, MeshSize& size) {
   RateOptions options;
   options.tolerances = model.tolerances;
   options.errors = model.errors;
-  const RateReport chosen = choose_rates(one, model.topology, options,
-                                         {model.nu, model.nv, model.diagonals, model.deviations});
+  const Report chosen =
+      choose_rates(one, model.topology, options,
+                   {model.cells_u, model.cells_v, model.diagonals, model.deviations});
   MeshLayout layout;
   Status status = chosen.status;
   status =
-      status ? lay_out_mesh(model.topology, {model.nu, model.nv, model.diagonals}, layout) : status;
+      status ? lay_out_mesh(model.topology, {model.cells_u, model.cells_v, model.diagonals}, layout)
+             : status;
   if (!status) {
     return status;
   }

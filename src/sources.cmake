@@ -25,7 +25,7 @@ simdbezier_add_sources(splines O3 evaluate_spline_samples.cpp evaluate_splines.c
                        spline_knots.cpp spline_list.cpp spline_nets.cpp splines.cpp)
 simdbezier_add_sources(output O3 delivery.cpp output_check.cpp)
 simdbezier_add_sources(output O2 output_plan.cpp)
-simdbezier_add_sources(runtime O3 batch.cpp cache_sizes.cpp dispatch.cpp
+simdbezier_add_sources(runtime O3 batch.cpp cache_sizes.cpp dispatch.cpp executed_isa.cpp
                        fp_environment.cpp instruction_sets.cpp status.cpp
                        threads_${SIMDBEZIER_THREADS}.cpp)
 simdbezier_add_sources(mesh/topology O3 distinct_nets.cpp entanglement.cpp fit.cpp

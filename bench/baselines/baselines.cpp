@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "simdbezier_bench/isa_list.hpp"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "bench/peers/peers.hpp"
 #include "bench/place.hpp"

@@ -88,13 +88,12 @@ private:
     simdbezier::RateOptions options;
     options.tolerances = tolerances_;
     options.errors = errors_;
-    options.threads = run_.threads;
-    options.isa = run_.isa;
-    return simdbezier::choose_rates(nets(), topology_, options, {nu_, nv_, diagonals_, {}}).status;
+    const simdbezier::CertifiedRates rates{cells_u_, cells_v_, diagonals_, {}};
+    return simdbezier::choose_rates(nets(), topology_, options, rates, run_).status;
   }
   simdbezier::Status lay_out() {
     const simdbezier::Status status =
-        simdbezier::lay_out_mesh(topology_, {nu_, nv_, diagonals_}, layout_, run_);
+        simdbezier::lay_out_mesh(topology_, {cells_u_, cells_v_, diagonals_}, layout_, run_);
     vertices_.resize(std::max(vertices_.size(), kVertex * size().vertices));
     triangles_.resize(std::max(triangles_.size(), 3 * size().triangles));
     return status;
@@ -122,8 +121,8 @@ private:
   simdbezier::Topology topology_;
   std::vector<double> errors_ = std::vector<double>(kPatches);
   std::vector<double> tolerances_ = std::vector<double>(kPatches);
-  std::vector<std::uint32_t> nu_ = std::vector<std::uint32_t>(kPatches);
-  std::vector<std::uint32_t> nv_ = std::vector<std::uint32_t>(kPatches);
+  std::vector<std::uint32_t> cells_u_ = std::vector<std::uint32_t>(kPatches);
+  std::vector<std::uint32_t> cells_v_ = std::vector<std::uint32_t>(kPatches);
   std::vector<std::uint16_t> diagonals_ = std::vector<std::uint16_t>(kPatches);
   simdbezier::MeshLayout layout_;
   std::vector<float> vertices_;

@@ -1,11 +1,11 @@
 // evaluate(set, where, out, options) evaluates a set's patches into the caller's memory.
 //
-//   where       Grid, PatchGrids or Samples (samples.hpp)
+//   where       Grid, PatchGrids or Samples (patch_set.hpp)
 //   out         Outputs (outputs.hpp), or a list of them: results.hpp returns std::vectors
 //   options     how the call runs (options.hpp)
 //
-// tiles.hpp hands results to a function; derivatives.hpp computes derivatives of any order;
-// curves.hpp has the same calls for curves.
+// evaluate_tiles() hands results to a function, and evaluate_derivatives() computes derivatives of
+// any order. curves.hpp has the same calls for curves.
 //
 // Constraints that hold for every call
 //   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial (Parameters says how
@@ -35,10 +35,16 @@
 //               curvature is asked of a set without exactly three.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
+
 #include <simdbezier/options.hpp>
 #include <simdbezier/outputs.hpp>
 #include <simdbezier/patch_set.hpp>
-#include <simdbezier/samples.hpp>
 
 namespace simdbezier {
 
@@ -64,5 +70,146 @@ template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const Samples<T>& samples,
                                              const Outputs<T>& out,
                                              const Options& options = {}) noexcept;
+
+// evaluate_derivatives(set, where, derivatives, options): partial derivatives of any order.
+//
+// The constraints of all calls hold here. evaluate() is the fast way to derivatives of up to the
+// second order; these have one kernel for all orders, whose cost grows with the highest.
+
+/// What a call is asked for: anything that converts to a span of PartialDerivative.
+template <typename T>
+struct DerivativeOutputs {
+  std::span<const PartialDerivative<T>> derivatives;
+  int first_component = 0; ///< as in Outputs
+
+  template <std::convertible_to<std::span<const PartialDerivative<T>>> Range>
+  constexpr DerivativeOutputs(Range&& range, int first = 0) noexcept // NOLINT: implicit on purpose
+      : derivatives(range), first_component(first) {}
+};
+
+/// Evaluates derivatives at single samples, in any order: S^(a,b) = d^(a+b) S / du^a dv^b.
+///
+/// Polynomials take repeated synthetic division in x = 2u-1, then in y, and give zero for an order
+/// above the degree. Rational patches S = H / w take the quotient rule of any order,
+///     S^(a,b) = (H^(a,b) - sum_(i,j)>(0,0) C(a,i) C(b,j) w^(i,j) S^(a-i,b-j)) / w.
+/// Shapes:   component c of sample k of a derivative is its c-th pointer [k * stride], as in
+///           Outputs. Sets may mix shapes. No derivative, or one without pointers, is null_output.
+/// Aliasing: outputs may not overlap each other, the inputs or the list of derivatives; two may be
+///           members of one vertex. Options::destination has no effect.
+/// Edges:    derivatives along an edge, (0,b) at u = 0 or 1 and (a,0) at v = 0 or 1, come from that
+///           edge's control points alone. Both sides get equal bits, up to the sign that the edge's
+///           orientation gives them; in the middle of an edge of degree 6 or more, where two halves
+///           meet, they agree only within the bounds.
+/// Bits:     (0,0), (1,0), (0,1), (2,0), (1,1), (0,2) have the bits of evaluate(), unless a result
+///           or a sum on the way to it leaves the normal range; (2,0) and (0,2) of rational patches
+///           agree only within the bounds. The other derivatives of a call change no bit.
+/// Accuracy: docs/accuracy.md. What T cannot hold is infinite or nan.
+/// Source:   L. Piegl and W. Tiller, The NURBS Book, 2nd ed., A3.6 (computed in another way), A4.4.
+/// Cost:     polynomial: A n (m + B) multiply-adds a component, A and B the highest orders asked
+///           for plus one; rational: 1/4 A^2 B^2 more. Samples of one patch are computed together
+///           if at most some hundreds of others lie between them.
+/// Returns:  as evaluate() for Samples; also bad_degree for an order below 0 or above
+///           kMostDerivativeOrder.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status evaluate_derivatives(
+    const PatchSet<T>& set, const Samples<T>& samples,
+    const std::type_identity_t<DerivativeOutputs<T>>& out, const Options& options = {}) noexcept;
+
+/// Evaluates derivatives on one grid of every patch of a range, indexed as in Grid, with the bits
+/// of single samples at the same centred parameters. Returns as evaluate(), and bad_degree.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status evaluate_derivatives(
+    const PatchSet<T>& set, const Grid<T>& grid,
+    const std::type_identity_t<DerivativeOutputs<T>>& out, const Options& options = {}) noexcept;
+
+// Tiles: a grid's samples, handed to the caller while they are still in the cache.
+
+/// How the groups of a tile lie in memory.
+enum class TileLayout : std::uint8_t {
+  planes,     ///< SoA: every component a plane of its own, 64-byte aligned
+  xyz,        ///< AoS: every group packed x y z triples, 64-byte aligned
+  interleaved ///< one vertex a sample: the wanted groups' triples in the order of Outputs, no gaps
+};
+
+/// Which outputs a tile holds, and how.
+struct TileFormat {
+  OutputSelection outputs = {Output::position}; ///< curvatures are planes in every layout
+  TileLayout layout = TileLayout::planes;
+  /// The most samples in one tile; 0: what fits 24 KiB, half of a usual first-level cache. A tile
+  /// holds whole patches if one fits, else whole rows of one patch, at least one.
+  std::size_t samples = 0;
+  int first_component = 0; ///< as in Outputs
+};
+
+/// Finished samples: rows [first_row, first_row + row_count) of patches [first_patch, first_patch +
+/// patch_count), patch after patch, row after row, u fastest. If there are several, they are whole.
+template <typename T>
+struct Tile {
+  std::size_t first_patch = 0; ///< index in the set
+  std::size_t patch_count = 0;
+  std::size_t first_row = 0;
+  std::size_t row_count = 0;
+  std::size_t nu = 0;      ///< samples in a row
+  std::size_t samples = 0; ///< patch_count * row_count * nu
+  int worker = 0;          ///< number of the thread, from 0; no two calls at once share it
+  Outputs<T> out;          ///< the tile's own memory; the caller may change it, not keep it
+};
+
+template <typename T>
+class TileFunction;
+
+/// What a TileFunction can borrow. Another TileFunction is copied instead, and borrows the same.
+template <typename F, typename T>
+concept TileCallable =
+    !std::same_as<std::remove_cvref_t<F>, TileFunction<T>> && std::invocable<F&, const Tile<T>&>;
+
+/// A borrowed callable `void(const Tile<T>&)`. It must outlive the call and must not throw; it runs
+/// in the library's floating-point environment (round to nearest, denormals kept).
+template <typename T>
+class TileFunction {
+public:
+  template <TileCallable<T> F>
+  TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
+      : context_(address_of(function)), call_([](void* context, const Tile<T>& tile) {
+          using Function = std::remove_reference_t<F>;
+          if constexpr (std::is_function_v<Function>) {
+            (*reinterpret_cast<Function*>(context))(tile);
+          } else {
+            (*static_cast<Function*>(context))(tile);
+          }
+        }) {}
+  void operator()(const Tile<T>& tile) const { call_(context_, tile); }
+
+private:
+  template <typename F>
+  static void* address_of(F& function) noexcept {
+    if constexpr (std::is_function_v<F>) {
+      return reinterpret_cast<void*>(&function);
+    } else {
+      return const_cast<void*>(static_cast<const void*>(std::addressof(function)));
+    }
+  }
+
+  void* context_;
+  void (*call_)(void*, const Tile<T>&);
+};
+
+/// Evaluates every patch of a range on one grid, tile by tile, and hands each tile to `function` on
+/// the thread that made it, so that it is read from that thread's cache. Every sample arrives once;
+/// each worker's tiles ascend, the order between workers is not fixed. Values are those of
+/// evaluate(), bit for bit. Options::destination has no meaning. Allocation: one tile and its
+/// staging a thread. Returns ok | null_output (the format wants no vector and no curvature) |
+/// bad_components | bad_grid | bad_patch_range | size_overflow | the statuses of running. On an
+/// error no tile was handed out.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid,
+                                                   const TileFormat& format,
+                                                   std::type_identity_t<TileFunction<T>> function,
+                                                   const Options& options = {}) noexcept;
+
+/// The samples of the largest tile that evaluate_tiles() will hand out; 0 if it will refuse them.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
+                                                      const TileFormat& format) noexcept;
 
 } // namespace simdbezier

@@ -25,22 +25,14 @@ struct FlattenOptions {
   /// the set that will be evaluated. It is a part of the tolerance. Empty: 0.
   std::span<const double> errors = {};
   std::uint32_t most_points = kMostPolylinePoints; ///< larger numbers count as this one
-  int threads = 0;                                 ///< as in Options
-};
-
-/// Where choosing stopped.
-struct FlattenReport {
-  Status status;
-  std::size_t curve = 0; ///< the first one at fault
-  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 };
 
 /// Upper bounds on the distance of evaluated points of each curve from the exact ones: the norm of
-/// error_bounds(). out: one value a curve. Of the options, threads and isa count. Allocation: none.
+/// error_bounds(). out: one value a curve. Allocation: none.
 /// Returns ok | output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const CurveSet<T>& set, std::span<double> out,
-                                                    const Options& options = {}) noexcept;
+                                                    const RunOptions& options = {}) noexcept;
 
 /// Chooses the fewest uniform points, 2 or more, with which every curve and its polyline are within
 /// its tolerance of each other; CurveGrids::n takes them.
@@ -59,28 +51,28 @@ template <typename T>
 ///              curve's error, an error below zero, or more than most_points would be needed; the
 ///              report names the curve) | out_of_memory.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API FlattenReport choose_polylines(const ControlCurves<S>& curves,
-                                                            const FlattenOptions& options,
-                                                            std::span<std::uint32_t> points,
-                                                            std::span<double> deviation) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report choose_polylines(const ControlCurves<S>& curves,
+                                                     const FlattenOptions& options,
+                                                     std::span<std::uint32_t> points,
+                                                     std::span<double> deviation,
+                                                     const RunOptions& run = {}) noexcept;
 
 /// Polylines, one after the other.
 template <typename T>
 struct Polylines {
-  Status status;
-  std::size_t fault_curve = 0;
+  Report report;
   std::vector<std::array<T, 3>> points; ///< z (and y) are 0 if curves have no such component
   std::vector<std::size_t> first; ///< each polyline's first point, and the end of the last one
   double deviation = 0; ///< the distance between all of them and the curves is at most this
 
-  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(report); }
 };
 
-/// Packs, chooses, and evaluates curves of up to three components. Returns, in Polylines::status,
+/// Packs, chooses, and evaluates curves of up to three components. Returns, in Polylines::report,
 /// what pack(), choose_polylines() and evaluate() return, or out_of_memory. Allocates the set of
 /// curves, which is freed at the end, and the polylines.
 template <typename T, typename S>
 [[nodiscard]] Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
-                                   const Options& options = {}) noexcept;
+                                   const RunOptions& options = {}) noexcept;
 
 } // namespace simdbezier

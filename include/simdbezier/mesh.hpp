@@ -1,10 +1,10 @@
 // tessellate(nets, options): from control nets to a closed mesh in std::vectors.
 //
-//     const auto mesh = tessellate<float>(nets, {.tolerance = 1e-3});
+//     const auto mesh = tessellate<float>(nets, {.rates = {.tolerance = 1e-3}});
 //     if (mesh) { use(mesh.positions, mesh.triangles, mesh.deviation); }
 //
 // plan_mesh() stops before vertices are computed: its layout goes to the calls of evaluate_mesh.hpp
-// and mesh_primitives.hpp, piece by piece if a mesh is larger than memory.
+// and mesh_layout.hpp, piece by piece if a mesh is larger than memory.
 #pragma once
 
 #include <array>
@@ -15,43 +15,34 @@
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/evaluate_mesh.hpp>
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/patch_set.hpp>
 #include <simdbezier/rates.hpp>
-#include <simdbezier/split_edges.hpp>
 #include <simdbezier/topology.hpp>
 
 namespace simdbezier {
 
-/// What a mesh is to be like. How fine it is has to be said: by a tolerance, by pixels, by a
-/// longest edge, by an angle between normals, or by a grid.
+/// What a mesh is to be like. How fine it is has to be said: by `rates`, by a share, by pixels, or
+/// by a grid. If several are given, all are kept, except beside a grid.
 struct MeshOptions {
-  /// The largest distance of the surface from the mesh: absolute, or as a share of the diagonal of
-  /// the box of all control points. If both are given, the smaller one counts.
-  double tolerance = kUnlimited;
+  RateOptions rates = {}; ///< a tolerance, a longest edge, an angle
+  /// A tolerance as a share of the diagonal of the box of all control points.
   double relative_tolerance = kUnlimited;
-  /// Absolute tolerances, one for each patch given, in addition to those above; or empty.
-  std::span<const double> tolerances = {};
-  /// The most pixels that the mesh may be off in a picture, besides the above; needs a camera.
+  /// The most pixels that the mesh may be off in a picture; needs a camera.
   double pixels = kUnlimited;
   Camera camera = {};
-  double longest_edge = kUnlimited; ///< see RateOptions
-  double normal_angle = kUnlimited; ///< see RateOptions
   /// Every patch gets nu x nv samples, 2 or more each, instead of what tolerances ask for.
   std::uint32_t nu = 0;
   std::uint32_t nv = 0;
 
-  bool orient = false; ///< see TopologyOptions, as for the three below
-  bool flip = false;
-  double point_size = 0;
-  double snap = 0;
-  /// Cuts patches at corners of others that lie on their open sides: see split_edges(), with `snap`
-  /// and at least the distance given there.
+  TopologyOptions topology = {}; ///< which edges are one, and which way patches face
+  /// Cuts patches at corners of others that lie on their open sides: see split_edges(), with
+  /// TopologyOptions::snap and at least the distance given there.
   bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  /// The angle of split_creases(), in radians. Infinity: all are merged. 0: no vertices are shared.
-  double crease_angle = kUnlimited;
+  double crease_degrees = kUnlimited; ///< the angle of split_creases(), above 0
+  bool share_vertices = true;         ///< false: no vertex is that of two patches
 
   bool normals = true;
   /// u, v and the patch's number for every vertex. Patches then share positions and normals, but no
@@ -59,16 +50,16 @@ struct MeshOptions {
   bool parameters = false;
   bool short_indices = false; ///< 16-bit ones, if vertices are few enough
   bool local_origin = false;  ///< see PackOptions
-  int threads = 0;            ///< as in Options
+  int threads = 0;            ///< as in RunOptions, to which this converts
   Isa isa = Isa::automatic;   ///< whose roundings are certified, and whose kernels run
+
+  constexpr operator RunOptions() const noexcept { return {threads, isa}; } // NOLINT: it is one
 };
 
 /// A mesh that is laid out but not evaluated yet.
 template <typename T>
 struct MeshPlan {
-  Status status;
-  /// The patch at fault; 0 if the fault is not that of a single patch.
-  std::size_t fault_patch = 0;
+  Report report; ///< names the patch at fault by its number among those given
   PatchSet<T> set;
   /// Counts all patches given, or their pieces, including repeated ones that were left out.
   TopologyCounts counts;
@@ -79,20 +70,19 @@ struct MeshPlan {
   std::vector<std::uint32_t> patches;
   /// Which part of a patch given each patch of the set is; empty without MeshOptions::split_edges.
   std::vector<PatchPiece> pieces;
-  std::vector<std::uint32_t> nu; ///< cells of each patch of the set
-  std::vector<std::uint32_t> nv;
+  std::vector<std::uint32_t> cells_u; ///< of each patch of the set
+  std::vector<std::uint32_t> cells_v;
   std::vector<double> deviations; ///< certified, of each patch of the set
   double deviation = 0;           ///< the largest of them
   double diagonal = 0;            ///< the length of that of the box of all control points
 
-  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(report); }
 };
 
 /// Vertices and triangles; all vectors are empty on an error.
 template <typename T>
 struct Mesh {
-  Status status;
-  std::size_t fault_patch = 0; ///< as in MeshPlan
+  Report report; ///< as in MeshPlan
   std::vector<std::array<T, 3>> positions;
   std::vector<std::array<T, 3>> normals;
   std::vector<std::array<T, 2>> parameters;
@@ -107,14 +97,14 @@ struct Mesh {
   TopologyCounts counts;
   SplitCounts splits;
 
-  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(report); }
 };
 
 /// Packs patches, joins edges, chooses rates, and numbers vertices; evaluates nothing.
 /// nets:    any views with three components, see find_topology(). They are read only here.
-/// Returns: in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
+/// Returns: in MeshPlan::report, what pack(), find_topology(), choose_rates() or certify_rates(),
 ///          lay_out_mesh(), split_creases(), split_parameters() and split_edges() return, such as
-///          snap_too_large if MeshOptions::snap leaves too little of a tolerance; bad_tolerance
+///          snap_too_large if TopologyOptions::snap leaves too little of a tolerance; bad_tolerance
 ///          also if nothing says how fine the mesh is to be; bad_grid if a grid has fewer than 2
 ///          samples or tolerances are given as well; out_of_memory.
 /// Memory:  what the plan holds, and working memory for edges and rates. A mesh is planned whole;
@@ -125,7 +115,7 @@ template <typename T, typename S>
                                     const MeshOptions& options) noexcept;
 
 /// Plans and evaluates a mesh. Neither threads nor the instruction set within a class change a bit.
-/// Returns: in Mesh::status, as plan_mesh(); size_overflow also if vertices exceed 2^32 - 1.
+/// Returns: in Mesh::report, as plan_mesh(); size_overflow also if vertices exceed 2^32 - 1.
 /// Memory:  allocates the plan, which is freed at the end, and the mesh.
 /// Threads: MeshOptions::threads. Cost: plan_mesh(), evaluate_mesh() and write_triangles().
 template <typename T, typename S>

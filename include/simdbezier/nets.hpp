@@ -17,8 +17,7 @@
 //             operations, in any orientation. Corners of the patch stay exact, as do whole edges
 //             that the operation does not touch. Equal neighbouring values stay equal: a collapsed
 //             edge stays collapsed, whatever its weights.
-//   Threads   Options::threads, isa and executed are honoured; its other members have no meaning.
-//             Allocation: scratch per thread, none per patch. Nothing throws.
+//   Threads   RunOptions::threads. Allocation: scratch per thread, none per patch. Nothing throws.
 //   Statuses  ok, those of views and running (Status) | null_output | output_too_small | bad_weight
 //             | non_finite_input | bad_patch_range (counts differ) | overlapping_outputs.
 //   Source    G. Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6 and 14.
@@ -32,10 +31,6 @@
 #include <simdbezier/patch_set.hpp>
 
 namespace simdbezier {
-
-/// Where an operation stopped: status, patch, control point and component, as in packing. `point`
-/// is -1 if non_finite_input is about a parameter, or bad_weight about weights as such.
-using NetReport = PackReport;
 
 /// The caller's memory for control nets. Its members mean what they mean in ControlNets, to which
 /// it converts, so that one operation's output can be the next one's input.
@@ -144,24 +139,24 @@ using AtParameter = std::type_identity_t<UnitParameter<T>>;
 ///             [0,1]; with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
 /// Cost:       reading and writing the nets in cache; O(degree) times that for high degrees.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport split_u(const ControlNets<T>& nets, AtParameter<T> u,
-                                               const std::type_identity_t<MutableNets<T>>& low,
-                                               const std::type_identity_t<MutableNets<T>>& high,
-                                               const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report split_u(const ControlNets<T>& nets, AtParameter<T> u,
+                                            const std::type_identity_t<MutableNets<T>>& low,
+                                            const std::type_identity_t<MutableNets<T>>& high,
+                                            const RunOptions& options = {}) noexcept;
 
 /// Cuts every patch at v, in the same way.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport split_v(const ControlNets<T>& nets, AtParameter<T> v,
-                                               const std::type_identity_t<MutableNets<T>>& low,
-                                               const std::type_identity_t<MutableNets<T>>& high,
-                                               const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report split_v(const ControlNets<T>& nets, AtParameter<T> v,
+                                            const std::type_identity_t<MutableNets<T>>& low,
+                                            const std::type_identity_t<MutableNets<T>>& high,
+                                            const RunOptions& options = {}) noexcept;
 
 /// Cuts every patch at u, then both parts at v: out[2 * (v half) + (u half)].
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport
+[[nodiscard]] SIMDBEZIER_API Report
 split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
       const std::array<std::type_identity_t<MutableNets<T>>, 4>& out,
-      const Options& options = {}) noexcept;
+      const RunOptions& options = {}) noexcept;
 
 /// A rectangle of the parameter domain. u0 > u1 turns the piece around; u0 = u1 gives a line.
 template <typename T>
@@ -180,10 +175,10 @@ struct SubPatch {
 ///                     split_u() takes cartesian points to homogeneous ones and back.
 /// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); whole directions cost nothing.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport segment(const ControlNets<T>& nets,
-                                               const std::type_identity_t<SubPatch<T>>& piece,
-                                               const std::type_identity_t<MutableNets<T>>& out,
-                                               const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report segment(const ControlNets<T>& nets,
+                                            const std::type_identity_t<SubPatch<T>>& piece,
+                                            const std::type_identity_t<MutableNets<T>>& out,
+                                            const RunOptions& options = {}) noexcept;
 
 /// Raises the degrees of the same surfaces to those of `out` (lower ones are bad_degree).
 /// Formula: q_i = sum_k C(n,k) C(r,i-k) p_k / C(n+r,i), degree n to n+r, paired from both ends.
@@ -191,43 +186,43 @@ template <typename T>
 ///          per direction. Exact if these sums and quotients are.
 /// Cost:    O(degree) multiply-adds a value and direction whose degree rises.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport elevate(const ControlNets<T>& nets,
-                                               const std::type_identity_t<MutableNets<T>>& out,
-                                               const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report elevate(const ControlNets<T>& nets,
+                                            const std::type_identity_t<MutableNets<T>>& out,
+                                            const RunOptions& options = {}) noexcept;
 
 /// Makes the derivative patches dS/du: control points degree_u (P[j][i+1] - P[j][i]), degree_u - 1
 /// by degree_v. A direction of degree 1 keeps it: its two columns are equal, for nets have no
 /// degree 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one. Cost:
 /// about the time of reading and writing the nets.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport hodograph_u(const ControlNets<T>& nets,
-                                                   const std::type_identity_t<MutableNets<T>>& out,
-                                                   const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report hodograph_u(const ControlNets<T>& nets,
+                                                const std::type_identity_t<MutableNets<T>>& out,
+                                                const RunOptions& options = {}) noexcept;
 
 /// Makes the derivative patches dS/dv, in the same way.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport hodograph_v(const ControlNets<T>& nets,
-                                                   const std::type_identity_t<MutableNets<T>>& out,
-                                                   const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report hodograph_v(const ControlNets<T>& nets,
+                                                const std::type_identity_t<MutableNets<T>>& out,
+                                                const RunOptions& options = {}) noexcept;
 
 /// Reverses u, on the same surface: Q[j][i] = P[j][degree_u - i]. A copy; for calls that only read,
 /// the view reversed_u() is enough. Cost, as of the two below: reading and writing the nets.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport reverse_u(const ControlNets<T>& nets,
-                                                 const std::type_identity_t<MutableNets<T>>& out,
-                                                 const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report reverse_u(const ControlNets<T>& nets,
+                                              const std::type_identity_t<MutableNets<T>>& out,
+                                              const RunOptions& options = {}) noexcept;
 
 /// Reverses v: Q[j][i] = P[degree_v - j][i].
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport reverse_v(const ControlNets<T>& nets,
-                                                 const std::type_identity_t<MutableNets<T>>& out,
-                                                 const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report reverse_v(const ControlNets<T>& nets,
+                                              const std::type_identity_t<MutableNets<T>>& out,
+                                              const RunOptions& options = {}) noexcept;
 
 /// Exchanges u and v: Q[i][j] = P[j][i]; degree_u of `out` is degree_v of the input.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport transpose(const ControlNets<T>& nets,
-                                                 const std::type_identity_t<MutableNets<T>>& out,
-                                                 const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report transpose(const ControlNets<T>& nets,
+                                              const std::type_identity_t<MutableNets<T>>& out,
+                                              const RunOptions& options = {}) noexcept;
 
 /// Views of the same nets the other way round: no memory is touched. `nets` must be valid.
 template <typename S>
@@ -252,5 +247,45 @@ template <typename S>
   nets.point_stride = stride;
   return nets;
 }
+
+// Other bases, to and from Bézier control points: power, Hermite, Catmull-Rom, uniform B-spline.
+//
+// A net changes basis by P' = A P B^T, one matrix a direction. The matrices are exact (integers
+// over one denominator a row). Nets of float are carried in double and rounded once at the end;
+// nets of double are rounded after every sum. The result is exact if these sums are: for integer
+// control points of moderate size, and no denominator or one that divides the sum.
+//
+// The constraints of nets.hpp hold here as well: outputs, faults, bits, zeros, threads, statuses.
+
+/// What the values of a "net" stand for in each direction, and which denominators conversions have.
+enum class Basis : std::uint8_t {
+  power, ///< sum_k c_k u^k; any degree. To Bézier: c over binomials; from it: no denominator
+  centred_power, ///< sum_k c_k (2u-1)^k; any degree. From Bézier: over 2^degree
+  hermite,     ///< f(0), f(1), f'(0), f'(1); so P[2][2], … are twists. Cubic. To Bézier: thirds
+  catmull_rom, ///< four points; the piece between the middle two, tension 1/2. Cubic. To: sixths
+  b_spline ///< four points of a uniform cubic B-spline; one piece of it. Cubic. To: sixths. Whole
+           ///< surfaces, of any knots: splines.hpp
+};
+
+/// Computes the Bézier control points of surfaces that are given in another basis.
+/// Degrees: equal in `out` and the input; 3 x 3 except for power bases (else bad_degree).
+/// Weights: power bases take homogeneous nets (a numerator and a denominator polynomial, of any
+///          sign), B-splines take both forms (NURBS pieces), all others none (else bad_weight).
+/// Edges:   pieces of one B-spline or Catmull-Rom net get bit-equal control points on common edges.
+/// Errors:  those of the sums, relative to the largest value of either basis: powers of u amplify
+///          rounding errors by up to 3^degree a direction (a round trip of a 15 x 15 patch keeps no
+///          digit in float), centred powers by about 2^(degree/2), the others by small constants.
+/// Source:  Farin, chapters 5, 7 and 8; J. D. Foley et al., Computer Graphics, 2nd ed., 11.2.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Report to_bezier(Basis basis, const ControlNets<T>& nets,
+                                              const std::type_identity_t<MutableNets<T>>& out,
+                                              const RunOptions& options = {}) noexcept;
+
+/// The inverse: computes the values in another basis of surfaces given by Bézier control points.
+/// Weights: power bases take homogeneous nets, all others none.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Report from_bezier(Basis basis, const ControlNets<T>& nets,
+                                                const std::type_identity_t<MutableNets<T>>& out,
+                                                const RunOptions& options = {}) noexcept;
 
 } // namespace simdbezier

@@ -1,15 +1,114 @@
 // What a call can be asked for at every sample of a surface, and where it goes.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <span>
 
-#include <simdbezier/sample_status.hpp>
-#include <simdbezier/vectors.hpp>
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/status.hpp>
 
 namespace simdbezier {
+
+// The caller's memory for results: vectors in any layout, and single values.
+
+/// The capacity of memory that is given by a pointer alone: the call trusts that it suffices.
+inline constexpr std::size_t kTrusted = static_cast<std::size_t>(-1);
+
+/// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride], with
+/// the stride in elements. All three null: not asked for. If made from spans, it knows its
+/// capacity, and calls with more samples return output_too_small.
+template <typename T>
+struct Vectors {
+  T* x = nullptr;
+  T* y = nullptr;
+  T* z = nullptr;
+  std::ptrdiff_t stride = 1;
+  std::size_t capacity = kTrusted; ///< samples
+
+  /// x y z triples (AoS), `stride` elements from one to the next: 3 if packed, the size of a vertex
+  /// if interleaved. A span begins with the first triple and needs a stride of 3 or more.
+  [[nodiscard]] static constexpr Vectors xyz(T* first, std::ptrdiff_t stride = 3) noexcept {
+    return {first, first + 1, first + 2, stride};
+  }
+  [[nodiscard]] static constexpr Vectors xyz(std::span<T> values,
+                                             std::ptrdiff_t stride = 3) noexcept {
+    Vectors triples = values.empty() ? Vectors{} : xyz(values.data(), stride);
+    triples.capacity = records(values.size(), 3, stride);
+    return triples;
+  }
+  [[nodiscard]] static constexpr Vectors xyz(std::span<std::array<T, 3>> points) noexcept {
+    Vectors triples = points.empty() ? Vectors{} : xyz(points.front().data());
+    triples.capacity = points.size();
+    return triples;
+  }
+
+  /// Three planes (SoA), unit stride.
+  [[nodiscard]] static constexpr Vectors planes(T* x, T* y, T* z) noexcept { return {x, y, z}; }
+  [[nodiscard]] static constexpr Vectors planes(std::span<T> x, std::span<T> y,
+                                                std::span<T> z) noexcept {
+    return {x.data(), y.data(), z.data(), 1, std::min({x.size(), y.size(), z.size()})};
+  }
+
+  /// Sets of one or two components: one or two planes, or pairs side by side.
+  [[nodiscard]] static constexpr Vectors plane(T* x) noexcept { return {x}; }
+  [[nodiscard]] static constexpr Vectors plane(std::span<T> x) noexcept {
+    return {x.data(), nullptr, nullptr, 1, x.size()};
+  }
+  [[nodiscard]] static constexpr Vectors planes(T* x, T* y) noexcept { return {x, y}; }
+  [[nodiscard]] static constexpr Vectors planes(std::span<T> x, std::span<T> y) noexcept {
+    return {x.data(), y.data(), nullptr, 1, std::min(x.size(), y.size())};
+  }
+  [[nodiscard]] static constexpr Vectors pairs(T* first, std::ptrdiff_t stride = 2) noexcept {
+    return {first, first + 1, nullptr, stride};
+  }
+  [[nodiscard]] static constexpr Vectors pairs(std::span<T> values,
+                                               std::ptrdiff_t stride = 2) noexcept {
+    Vectors pairs_of = values.empty() ? Vectors{} : pairs(values.data(), stride);
+    pairs_of.capacity = records(values.size(), 2, stride);
+    return pairs_of;
+  }
+
+  /// Whether the output is asked for. An empty span counts, since the call has to refuse it.
+  [[nodiscard]] constexpr bool wanted() const noexcept {
+    return x != nullptr || y != nullptr || z != nullptr || capacity != kTrusted;
+  }
+
+private:
+  /// How many records of `members` values, `stride` apart, fit.
+  static constexpr std::size_t records(std::size_t values, std::size_t members,
+                                       std::ptrdiff_t stride) noexcept {
+    return values < members || stride <= 0
+               ? 0
+               : (values - members) / static_cast<std::size_t>(stride) + 1;
+  }
+};
+
+/// Where an output of one value a sample goes, unit stride; null: not asked for. A pointer is
+/// trusted, the size of a span or a vector is checked.
+template <typename T>
+struct Values {
+  T* first = nullptr;
+  std::size_t capacity = kTrusted;
+
+  constexpr Values() noexcept = default;
+  constexpr Values(T* memory) noexcept : first(memory) {} // NOLINT: implicit on purpose
+  template <std::convertible_to<std::span<T>> Range>
+  constexpr Values(Range&& range) noexcept // NOLINT: implicit on purpose
+      : Values(std::span<T>(range)) {}
+  constexpr Values(std::span<T> values) noexcept // NOLINT: implicit on purpose
+      : first(values.data()), capacity(values.size()) {}
+
+  [[nodiscard]] constexpr bool wanted() const noexcept {
+    return first != nullptr || capacity != kTrusted;
+  }
+  [[nodiscard]] constexpr T& operator[](std::size_t sample) const noexcept { return first[sample]; }
+};
 
 /// The outputs of a surface, in the order in which vertices, files and tables have them.
 enum class Output : std::uint8_t {
@@ -175,6 +274,38 @@ private:
       &Outputs::position, &Outputs::du,  &Outputs::dv,    &Outputs::duu,
       &Outputs::duv,      &Outputs::dvv, &Outputs::normal};
   static_assert(std::size(kMembers) == kVectors, "every vector output has a member, in its order");
+};
+
+/// The vector outputs of a curve. Derivatives are with respect to t.
+enum class CurveOutput : std::uint8_t {
+  position, ///< C(t)
+  d1,       ///< C'(t)
+  d2,       ///< C''(t)
+  tangent   ///< C' / |C'|
+};
+inline constexpr std::size_t kCurveVectorOutputs =
+    static_cast<std::size_t>(CurveOutput::tangent) + 1;
+
+/// "position", "d1", …: what the C API and Python call an output.
+[[nodiscard]] constexpr const char* output_name(CurveOutput output) noexcept {
+  constexpr const char* kNames[] = {"position", "d1", "d2", "tangent"};
+  static_assert(std::size(kNames) == kCurveVectorOutputs);
+  return kNames[static_cast<std::size_t>(output)];
+}
+
+// A derivative of any order that a call is asked for.
+
+/// The highest order in each direction. Polynomials have nothing but zeros beyond their degree;
+/// derivatives of rational patches do not end there.
+inline constexpr int kMostDerivativeOrder = kMostDegree;
+
+/// One derivative that is asked for: d^(a+b) S / du^a dv^b, a = order_u, b = order_v, each from 0
+/// to kMostDerivativeOrder; (0, 0) is the position.
+template <typename T>
+struct PartialDerivative {
+  int order_u = 0;
+  int order_v = 0;
+  Vectors<T> out; ///< required; layouts as in Outputs
 };
 
 } // namespace simdbezier

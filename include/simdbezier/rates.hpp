@@ -8,7 +8,6 @@
 #include <span>
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/isa.hpp>
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/options.hpp>
 #include <simdbezier/patch_set.hpp>
@@ -21,26 +20,26 @@ inline constexpr double kUnlimited = std::bit_cast<double>(std::uint64_t{0x7ff} 
 
 /// How close a mesh is to be.
 struct RateOptions {
-  /// The largest distance of any point of the surface from the mesh, and back; kUnlimited: any.
-  double tolerance = 0;
-  /// One value a patch, instead of `tolerance`; or empty.
+  /// The largest distance of any point of the surface from the mesh, and back.
+  double tolerance = kUnlimited;
+  /// One value a patch, in addition to `tolerance`; or empty.
   std::span<const double> tolerances = {};
-  /// How far evaluated vertices may be from the exact ones, one value a patch: position_errors() of
-  /// the set that will be evaluated. It is a part of the tolerance. Empty: 0.
+  /// How far vertices may be from the exact ones, one value a patch; a part of the tolerance. For
+  /// choose_rates(), position_errors() of the set that will be evaluated. plan_mesh() adds these by
+  /// itself. Empty: 0.
   std::span<const double> errors = {};
   /// No row or column of cells has a longer edge than about this (the longest leg of the control
-  /// net times the degree, over the number of segments). Above 0, else bad_tolerance.
+  /// net times the degree, over the number of cells). Above 0, else bad_tolerance.
   double longest_edge = kUnlimited;
-  /// No row or column of cells turns its normal by more than about this angle, in radians, from one
-  /// point to the next (the total turn of the net's normals over the number of segments). Above 0.
-  double normal_angle = kUnlimited;
+  /// No row or column of cells turns its normal by more than about this angle from one point to
+  /// the next (the total turn of the net's normals over the number of cells). Above 0.
+  double normal_degrees = kUnlimited;
   std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
-  /// For views and models that move: CertifiedRates::nu and nv hold the rates of the frame before,
-  /// or 0. Patches keep these if they hold and have at most so many times the cells that would be
-  /// chosen, so that rates and triangles change seldom. Below 1, or nan: none are kept or read.
+  /// For views and models that move: CertifiedRates hold the rates of the frame before, or 0.
+  /// Patches keep these if they hold and have at most so many times the cells that would be chosen,
+  /// so that rates and triangles change seldom. Below 1, or nan: none are kept or read, as by
+  /// plan_mesh(), which has no frame before.
   double keep = 0;
-  int threads = 0;          ///< as in Options
-  Isa isa = Isa::automatic; ///< see resolve_isa()
 };
 
 /// A pinhole camera, unless it is orthographic: a point that is one unit away along the direction
@@ -61,28 +60,21 @@ struct Camera {
   bool skip_back = false;
 };
 
-/// Where choosing rates stopped.
-struct RateReport {
-  Status status = Status::ok;
-  std::size_t patch = 0; ///< the first one at fault
-  [[nodiscard]] explicit operator bool() const noexcept { return status == Status::ok; }
-};
-
 /// Rates with their certificate: one value a patch each.
 struct CertifiedRates {
-  std::span<std::uint32_t> nu;
-  std::span<std::uint32_t> nv;
+  std::span<std::uint32_t> cells_u;
+  std::span<std::uint32_t> cells_v;
   std::span<std::uint16_t> diagonals; ///< as in PatchRates
   std::span<double> deviation;        ///< the bound on the distance, errors included; may be empty
 };
 
 /// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
-/// of error_bounds() over three components. out: one value a patch. Of the options, threads and isa
-/// count. Allocation: none. Cost: some 0.2 us a bicubic patch, 3 us with weights. Returns ok |
-/// output_too_small | unknown_isa | unsupported_isa.
+/// of error_bounds() over three components. out: one value a patch. Allocation: none. Cost: some
+/// 0.2 us a bicubic patch, 3 us with weights. Returns ok | output_too_small | unknown_isa |
+/// unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
-                                                    const Options& options = {}) noexcept;
+                                                    const RunOptions& options = {}) noexcept;
 
 /// Finds tolerances for choose_rates() with which no point of a surface is seen more than `pixels`
 /// away from its place on the mesh, from this camera.
@@ -129,39 +121,40 @@ template <typename S>
 ///              to 4 us up to degree 3, 100 us for degree 15. Uneven parameters add 5 us a cell of
 ///              a bicubic patch, up to a second.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
-                                                     const Topology& topology,
-                                                     const RateOptions& options,
-                                                     const CertifiedRates& out) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<S>> nets,
+                                                 const Topology& topology,
+                                                 const RateOptions& options,
+                                                 const CertifiedRates& out,
+                                                 const RunOptions& run = {}) noexcept;
 
 /// Certifies given rates: finds the best diagonals, and their bound. Determinism, allocation and
 /// overlaps are as for choose_rates(), which takes longer.
-/// rates:   nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written, and
+/// rates:   cells_u and cells_v are read, from 1 to kMostSegments; diagonals and deviation are
+/// written, and
 ///          undefined on an error. errors: one value a patch, or empty.
-/// options: threads and isa count, the other members have no meaning.
 /// Returns: as choose_rates(); bad_rates also for rates outside of that range.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> nets,
-                                                      const Topology& topology,
-                                                      std::span<const double> errors,
-                                                      const CertifiedRates& rates,
-                                                      const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report certify_rates(std::span<const ControlNets<S>> nets,
+                                                  const Topology& topology,
+                                                  std::span<const double> errors,
+                                                  const CertifiedRates& rates,
+                                                  const RunOptions& options = {}) noexcept;
 
 /// The largest number of cells in one direction for certify_grids().
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
-/// Certifies meshes whose patches stay apart: each is a grid of nu x nv cells, as evaluate()
-/// numbers its samples, whose diagonals all run from (0,0) to (1,1).
-/// deviation: one value a patch, including `errors` (as many, or none). Undefined on an error.
-/// options:   as for certify_rates(). Cost: 0.3 to 1.7 us a patch up to degree 5 (AVX2).
-/// Returns:   ok | the statuses of views (bad_components: not three) | non_finite_input |
+/// Certifies meshes whose patches stay apart: each is a grid of cells_u x cells_v cells, as
+/// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1). deviation: one
+/// value a patch, including `errors` (as many, or none). Undefined on an error. Cost:      0.3
+/// to 1.7 us a patch up to degree 5 (AVX2). Returns:   ok | the statuses of views (bad_components:
+/// not three) | non_finite_input |
 ///            bad_weight | bad_rates (outside of 1 to kMostGridCells, or spans that are not one
 ///            value a patch) | bad_tolerance (an error below 0 or nan) | the statuses of running.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> nets,
-                                                      std::uint32_t nu, std::uint32_t nv,
-                                                      std::span<const double> errors,
-                                                      std::span<double> deviation,
-                                                      const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report certify_grids(std::span<const ControlNets<S>> nets,
+                                                  std::uint32_t cells_u, std::uint32_t cells_v,
+                                                  std::span<const double> errors,
+                                                  std::span<double> deviation,
+                                                  const RunOptions& options = {}) noexcept;
 
 // The same for a single view.
 template <typename S>
@@ -170,15 +163,15 @@ template <typename S>
   return pixel_tolerances(std::span<const ControlNets<S>>(&nets, 1), camera, pixels, out);
 }
 template <typename S>
-[[nodiscard]] RateReport choose_rates(const ControlNets<S>& nets, const Topology& topology,
-                                      const RateOptions& options,
-                                      const CertifiedRates& out) noexcept {
-  return choose_rates(std::span<const ControlNets<S>>(&nets, 1), topology, options, out);
+[[nodiscard]] Report choose_rates(const ControlNets<S>& nets, const Topology& topology,
+                                  const RateOptions& options, const CertifiedRates& out,
+                                  const RunOptions& run = {}) noexcept {
+  return choose_rates(std::span<const ControlNets<S>>(&nets, 1), topology, options, out, run);
 }
 template <typename S>
-[[nodiscard]] RateReport certify_rates(const ControlNets<S>& nets, const Topology& topology,
-                                       std::span<const double> errors, const CertifiedRates& rates,
-                                       const Options& options = {}) noexcept {
+[[nodiscard]] Report certify_rates(const ControlNets<S>& nets, const Topology& topology,
+                                   std::span<const double> errors, const CertifiedRates& rates,
+                                   const RunOptions& options = {}) noexcept {
   return certify_rates(std::span<const ControlNets<S>>(&nets, 1), topology, errors, rates, options);
 }
 

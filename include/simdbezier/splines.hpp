@@ -41,7 +41,7 @@
 #include <span>
 #include <type_traits>
 
-#include <simdbezier/control_curves.hpp>
+#include <simdbezier/control_nets.hpp>
 #include <simdbezier/curves.hpp>
 #include <simdbezier/mesh.hpp>
 #include <simdbezier/nets.hpp>
@@ -118,18 +118,6 @@ struct SpanCounts {
   [[nodiscard]] constexpr std::size_t patches() const noexcept { return u * v; }
 };
 
-/// Where a call on splines stopped: `surface` (or curve) is the first one at fault. If its knots
-/// are, `point` is the number of the knot and `component` is 0 for u, 1 for v. If a control value
-/// is, `point` is row * columns + column, and `component` as in PackReport.
-struct SplineReport {
-  Status status = Status::ok;
-  std::size_t surface = 0;
-  std::size_t point = 0;
-  int component = 0;
-
-  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
-};
-
 /// The number of patches of a surface, or of pieces of a curve; 0 if it would be refused. Cost:
 /// that of its knots, not of its points.
 template <typename S>
@@ -143,7 +131,7 @@ template <typename S>
 ///             from their points. Weights may be Cartesian or homogeneous, whichever form the
 ///             surfaces have. Rational points that are one point whatever their weights (see
 ///             Weights::homogeneous) stay one.
-/// intervals:  of each patch; or empty. Of the options, threads, isa and executed are honoured.
+/// intervals:  of each patch; or empty.
 /// Allocation: tables of the knots, and degree_v + 2 lines of Bézier points a thread.
 /// Threads:    share the rows of spans of all surfaces.
 /// Returns:    ok | the statuses of views | null_output | output_too_small | bad_degree,
@@ -154,23 +142,23 @@ template <typename S>
 ///             | the statuses of running.
 /// Cost:       about (degree_u + 1) (degree_v + 1)^2 products and sums a channel and patch.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(std::span<const SplineSurface<T>> surfaces,
-                                                    const std::type_identity_t<MutableNets<T>>& out,
-                                                    std::span<PatchInterval> intervals = {},
-                                                    const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report to_bezier(std::span<const SplineSurface<T>> surfaces,
+                                              const std::type_identity_t<MutableNets<T>>& out,
+                                              std::span<PatchInterval> intervals = {},
+                                              const RunOptions& options = {}) noexcept;
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(const SplineSurface<T>& surface,
-                                                    const std::type_identity_t<MutableNets<T>>& out,
-                                                    std::span<PatchInterval> intervals = {},
-                                                    const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report to_bezier(const SplineSurface<T>& surface,
+                                              const std::type_identity_t<MutableNets<T>>& out,
+                                              std::span<PatchInterval> intervals = {},
+                                              const RunOptions& options = {}) noexcept;
 
 /// Makes the pieces of a curve in the same way: control points side by side, piece after piece, as
 /// in ControlCurves::packed(), with weights in the curve's own form.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(const SplineCurve<T>& curve,
-                                                    const std::type_identity_t<Values<T>>& points,
-                                                    std::span<Interval> intervals = {},
-                                                    const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report to_bezier(const SplineCurve<T>& curve,
+                                              const std::type_identity_t<Values<T>>& points,
+                                              std::span<Interval> intervals = {},
+                                              const RunOptions& options = {}) noexcept;
 
 /// Packs the patches of spline surfaces without nets in between: the set is that of to_bezier() in
 /// S, with homogeneous weights, and pack().
@@ -179,14 +167,13 @@ template <typename T>
 /// Allocation: the set, what to_bezier() needs, and nets of a few rows of spans for each thread.
 /// Returns:    what to_bezier() and pack() return.
 template <typename T, typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport pack(std::span<const SplineSurface<S>> surfaces,
-                                               PatchSet<T>& set,
-                                               std::span<PatchInterval> intervals = {},
-                                               const PackOptions& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report pack(std::span<const SplineSurface<S>> surfaces,
+                                         PatchSet<T>& set, std::span<PatchInterval> intervals = {},
+                                         const PackOptions& options = {}) noexcept;
 template <typename T, typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport pack(const SplineSurface<S>& surface, PatchSet<T>& set,
-                                               std::span<PatchInterval> intervals = {},
-                                               const PackOptions& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report pack(const SplineSurface<S>& surface, PatchSet<T>& set,
+                                         std::span<PatchInterval> intervals = {},
+                                         const PackOptions& options = {}) noexcept;
 
 /// Where parameters of a spline lie on its patches. Every array may be null: not asked for.
 struct SplinePlaces {
@@ -210,13 +197,12 @@ struct SplinePlaces {
 ///           | bad_tolerance) | non_finite_input | out_of_memory; `point`: which parameter.
 /// Cost:     a binary search for each parameter that is not in the span of the one before.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport locate(const SplineSurface<S>& surface, std::size_t count,
-                                                 const double* U, const double* V,
-                                                 const SplinePlaces& places) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report locate(const SplineSurface<S>& surface, std::size_t count,
+                                           const double* U, const double* V,
+                                           const SplinePlaces& places) noexcept;
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport locate(const SplineCurve<S>& curve, std::size_t count,
-                                                 const double* U,
-                                                 const SplinePlaces& places) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report locate(const SplineCurve<S>& curve, std::size_t count,
+                                           const double* U, const SplinePlaces& places) noexcept;
 
 /// The divisor that turns derivatives of these orders by u and v of a patch into those by U and V:
 /// length_u^order_u length_v^order_v, one product after the other, as evaluations below divide.
@@ -247,24 +233,23 @@ template <typename S>
 /// Allocation: a few values for each of U and V.
 /// Returns:    what locate() and evaluate() return.
 template <typename T, typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport
+[[nodiscard]] SIMDBEZIER_API Report
 evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
               std::span<const double> V, const std::type_identity_t<Outputs<T>>& out,
               const Options& options = {}, std::size_t first_patch = 0) noexcept;
 
 /// The same with a set of its own: pack() and evaluate_grid() in one call.
 template <typename T, typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport evaluate_grid(const SplineSurface<S>& surface,
-                                                        std::span<const double> U,
-                                                        std::span<const double> V,
-                                                        const Outputs<T>& out,
-                                                        const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Report evaluate_grid(const SplineSurface<S>& surface,
+                                                  std::span<const double> U,
+                                                  std::span<const double> V, const Outputs<T>& out,
+                                                  const Options& options = {}) noexcept;
 
 /// Evaluates a spline surface at single parameters (U[k], V[k]), in any order, otherwise like
 /// evaluate_grid(). They are copied first, so that outputs may lie in U and V. Allocation: 36 bytes
 /// and two T a sample. Also returns unequal_lengths.
 template <typename T, typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport
+[[nodiscard]] SIMDBEZIER_API Report
 evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
                  std::span<const double> V, const std::type_identity_t<Outputs<T>>& out,
                  const Options& options = {}, std::size_t first_patch = 0) noexcept;
@@ -273,7 +258,7 @@ evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::s
 /// curve: its knots, degree and range are read, its points are not.
 /// set:   packed from what to_bezier() makes of it; its pieces are those from `first_curve` on.
 template <typename T, typename S>
-[[nodiscard]] SIMDBEZIER_API SplineReport
+[[nodiscard]] SIMDBEZIER_API Report
 evaluate_samples(const CurveSet<T>& set, const SplineCurve<S>& curve, std::span<const double> t,
                  const std::type_identity_t<CurveOutputs<T>>& out, const Options& options = {},
                  std::size_t first_curve = 0) noexcept;
@@ -305,11 +290,11 @@ template <typename S>
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API MeshPlan<T> plan_mesh(std::span<const SplineSurface<S>> surfaces,
                                                    const MeshOptions& options,
-                                                   SplineReport* report = nullptr) noexcept;
+                                                   Report* report = nullptr) noexcept;
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API Mesh<T> tessellate(std::span<const SplineSurface<S>> surfaces,
                                                 const MeshOptions& options,
-                                                SplineReport* report = nullptr) noexcept;
+                                                Report* report = nullptr) noexcept;
 template <typename T, typename S>
 [[nodiscard]] Mesh<T> tessellate(const SplineSurface<S>& surface,
                                  const MeshOptions& options) noexcept {

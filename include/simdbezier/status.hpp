@@ -1,6 +1,7 @@
 // Every way in which a call can end. The library never prints, throws or aborts.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -8,7 +9,7 @@
 
 namespace simdbezier {
 
-/// How a call ended; true on ok, as are the reports that contain a status (PackReport):
+/// How a call ended; true on ok, as is a Report that contains it:
 ///
 ///     if (const Status s = evaluate(set, grid, out); !s) { std::puts(to_string(s).data()); }
 /// On an error a call has written nothing, and what it would have replaced is as it was, unless its
@@ -69,7 +70,41 @@ private:
 /// The negation of Status::ok itself would be true.
 constexpr bool operator!(Status::Code) = delete;
 
+/// How a call ended that looks at many control points, and where it stopped. All but the status are
+/// 0 on ok, and if no single item is at fault.
+struct Report {
+  Status status;
+  /// The first patch, curve, or spline at fault, by its number in the whole call.
+  std::size_t item = 0;
+  /// Its control point at fault, j*(degree_u+1)+i, of splines row * columns + column; of knots the
+  /// number of the knot. -1: an option is at fault, not a point.
+  std::ptrdiff_t point = 0;
+  /// 0, 1, 2 for x, y, z; the number of components for a weight. Of knots, 0 for u and 1 for v.
+  int component = 0;
+
+  [[nodiscard]] explicit constexpr operator bool() const noexcept {
+    return static_cast<bool>(status);
+  }
+};
+
 /// One line of English for a status; never null, static lifetime, thread-safe.
 [[nodiscard]] SIMDBEZIER_API std::string_view to_string(Status status) noexcept;
+
+// What was found at one sample of a surface or a curve.
+
+/// How a sample's normal was found. `limit` and `degenerate` are reported only if normals or
+/// curvatures are asked for (of curves: tangents or curvatures).
+///
+/// Let N(t) be du x dv on the way from the sample's centred parameters, as rounded, to the patch's
+/// middle: at (x, y) (1 - t), and from the middle itself at (t, t). The normal has the direction of
+/// the first Taylor coefficient of N in t that is not zero. Which one that is, is decided exactly,
+/// for the control points as given to pack(). If it is not the very first, the angular error of the
+/// normal is at most 10^-3 degree in float and 10^-9 in double.
+enum class SampleStatus : std::uint8_t {
+  regular,    ///< the first coefficient, du x dv itself, is not zero
+  limit,      ///< du x dv is zero, a later coefficient is not: the normal's limit
+  degenerate, ///< all coefficients are zero; the zero vector was written
+  non_finite  ///< a parameter was nan or infinite; the outputs are nan
+};
 
 } // namespace simdbezier

@@ -5,16 +5,64 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/options.hpp>
-#include <simdbezier/patch_edge.hpp>
-#include <simdbezier/samples.hpp>
+#include <simdbezier/outputs.hpp>
+#include <simdbezier/patch_set.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier {
+
+// Which edges of a set of patches are the same: bit-equal control points, in either direction.
+
+enum class EdgeKind : std::uint8_t {
+  boundary,     ///< no other edge has these control points
+  shared,       ///< exactly one other has
+  non_manifold, ///< more than one other has
+  collapsed     ///< all control points are one; never matched with another edge
+};
+
+/// What one edge of one patch is.
+struct EdgeLink {
+  EdgeKind kind = EdgeKind::boundary;
+  PatchEdge edge = PatchEdge::v0; ///< the matching edge …
+  bool reversed = false;          ///< … runs the other way; false if both ways are equal
+  std::size_t patch = 0;          ///< … of this patch, which may be the same one
+  friend bool operator==(const EdgeLink&, const EdgeLink&) = default;
+};
+
+/// Finds the counterpart of every edge of every patch. Meshes take find_topology() instead.
+/// nets:      any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
+///            patch may match one of a 7 x 3 patch. Patches are numbered through, view after view.
+/// edges:     [4 * patch + PatchEdge]; may not overlap the memory from the first to the last value
+///            of any view, gaps included. A shared edge gets the other one. A non_manifold edge
+///            gets the next one with the same points, in order of patch and edge, the last the
+///            first. edge, reversed and patch of boundary and collapsed edges are 0.
+/// Match:     equal degree and components, and bit-equal control points, weights included, in the
+///            same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
+///            counts as none; other weights must have the same form. Such edges are watertight.
+/// Collapsed: all points are one, whatever their weights: Cartesian ones if their coordinates are
+///            equal, homogeneous ones also if their quotients differ by roundings, 16 u of the
+///            larger of two in each coordinate (u = 2^-24 or 2^-53).
+/// Allocation: about 30 bytes an edge. Determinism: a function of
+///            the input.
+/// Returns:   ok | the statuses of views | null_output | output_too_small | overlapping_outputs |
+///            out_of_memory.
+/// Cost:      O(edges) by hashing, some 50 ns an edge, for values that are not made to collide.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> nets,
+                                                   Values<EdgeLink> edges,
+                                                   const RunOptions& options = {}) noexcept;
+
+template <typename S>
+[[nodiscard]] Status find_adjacency(const ControlNets<S>& nets, Values<EdgeLink> edges,
+                                    const RunOptions& options = {}) noexcept {
+  return find_adjacency(std::span<const ControlNets<S>>(&nets, 1), edges, options);
+}
 
 namespace detail {
 struct TopologyData;
@@ -55,7 +103,6 @@ struct TopologyOptions {
   /// are no longer than this become points, as by point_size, and open sides that match a point
   /// become points, too. 0: only sides with equal control points are one.
   double snap = 0;
-  int threads = 0; ///< as in Options
 };
 
 /// Which edges and corners the patches of a set share. Immutable; copies share the data.
@@ -89,7 +136,7 @@ private:
 /// as meshes need them. Corners are joined through edges, not by their positions: corners that
 /// touch only in a point stay apart. An edge may have any number of sides.
 /// nets:       any views with three components; patches are numbered through, view after view.
-/// Threads:    TopologyOptions::threads. One alone joins corners of patches with distant numbers,
+/// Threads:    RunOptions::threads. One alone joins corners of patches with distant numbers,
 ///             snaps, and looks at patches that are repeated or share more than a corner or an
 ///             edge.
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and options.
@@ -101,12 +148,14 @@ private:
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> nets,
                                                   Topology& topology,
-                                                  const TopologyOptions& options = {}) noexcept;
+                                                  const TopologyOptions& options = {},
+                                                  const RunOptions& run = {}) noexcept;
 
 template <typename S>
 [[nodiscard]] Status find_topology(const ControlNets<S>& nets, Topology& topology,
-                                   const TopologyOptions& options = {}) noexcept {
-  return find_topology(std::span<const ControlNets<S>>(&nets, 1), topology, options);
+                                   const TopologyOptions& options = {},
+                                   const RunOptions& run = {}) noexcept {
+  return find_topology(std::span<const ControlNets<S>>(&nets, 1), topology, options, run);
 }
 
 /// The patches of a model that repeat no earlier one.
@@ -131,18 +180,85 @@ template <typename S>
 /// are within TopologyOptions::snap of each other), and sides that it takes for points are points
 /// (within point_size). Meshes of such nets have no gap there. Sides that have become equal since
 /// then are not looked for. choose_rates() and certify_rates() refuse nets that do not fit.
-/// options: only threads counts. Allocation: some bytes a view. Determinism: a function of the
+/// Allocation: some bytes a view. Determinism: a function of the
 ///          topology and the control points. Cost: some 40 ns a patch; 1 us if snapped.
 /// Returns: false also if find_topology() would refuse the nets, or memory is lacking.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API bool fits(const Topology& topology,
                                        std::span<const ControlNets<S>> nets,
-                                       const Options& options = {}) noexcept;
+                                       const RunOptions& options = {}) noexcept;
 
 template <typename S>
 [[nodiscard]] bool fits(const Topology& topology, const ControlNets<S>& nets,
-                        const Options& options = {}) noexcept {
+                        const RunOptions& options = {}) noexcept {
   return fits(topology, std::span<const ControlNets<S>>(&nets, 1), options);
 }
+
+// Patches cut at corners of neighbours that lie on their sides, so that one long edge against
+// several short ones becomes several pairs of edges.
+
+/// How edges are split.
+struct SplitOptions {
+  /// How near a part of a long edge has to be to the short one, as TopologyOptions::snap measures
+  /// it. Roundings are allowed in any case: 64 (n + 1) u of the largest coordinate of all control
+  /// points, n being the largest degree and u = 2^-24 (float) or 2^-53 (double).
+  double snap = 0;
+  /// No cut leads beyond so many patches and pieces. 0: 8 times the patches given, at least 512.
+  std::size_t most_pieces = 0;
+};
+
+/// Where a piece of a patch comes from.
+struct PatchPiece {
+  std::uint32_t patch = 0; ///< among those given
+  double u0 = 0;           ///< the piece is the patch over [u0, u1] x [v0, v1]
+  double u1 = 1;
+  double v0 = 0;
+  double v1 = 1;
+  double error = 0; ///< how far cutting may have moved any of its points, by roundings
+
+  /// The parameters of the patch at u or v of the piece.
+  [[nodiscard]] constexpr double whole_u(double u) const noexcept { return between(u0, u1, u); }
+  [[nodiscard]] constexpr double whole_v(double v) const noexcept { return between(v0, v1, v); }
+
+private:
+  static constexpr double between(double from, double to, double place) noexcept {
+    return place == 1 ? to : from + (to - from) * place;
+  }
+};
+
+/// What came of short edges along a part of a longer one.
+struct SplitCounts {
+  std::size_t splits = 0;   ///< those that patches were cut for
+  std::size_t unjoined = 0; ///< those that stay open
+  double largest_gap = 0;   ///< at least the largest distance of one of these from that part
+};
+
+/// Patches of which some are pieces of those given.
+template <typename S>
+struct SplitNets {
+  std::vector<ControlNets<S>> nets; ///< in the memory of those given, and in `memory`
+  std::vector<PatchPiece> pieces;   ///< of each patch of `nets`, in the order of the patches given
+  std::vector<std::shared_ptr<const std::vector<S>>> memory;
+  double snap = 0; ///< for TopologyOptions: joins what was split for
+  SplitCounts counts;
+};
+
+/// Cuts patches at the corners that lie on their open sides, if the part of the side between two
+/// corners is the side of another patch. A cut divides the opposite side as well, and so all
+/// patches across it, up to an open side, a side that is a point, or the patch where it began. This
+/// is repeated until nothing is found: pieces may be as long as several others. If nothing is cut,
+/// SplitNets::nets are those given.
+/// nets:    as for find_topology().
+/// Gap:     short edges count as unjoined within a 32nd of their size of a part of another, or if a
+///          cut would lead to more pieces than allowed.
+/// Threads: RunOptions::threads, for topologies. Allocation: as find_topology(), and the pieces.
+///          Determinism: a function of the control points and options.
+/// Cost:    a find_topology() each time, and microseconds for each open side in another one's box.
+/// Returns: as find_topology(), and the statuses of segment() for patches that are to be cut.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status split_edges(std::span<const ControlNets<S>> nets,
+                                                SplitNets<S>& split,
+                                                const SplitOptions& options = {},
+                                                const RunOptions& run = {}) noexcept;
 
 } // namespace simdbezier

@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include <simdbezier/control_curves.hpp>
 #include <simdbezier/control_nets.hpp>
 
 #include "python/src/errors.hpp"

@@ -1,6 +1,6 @@
 // CurveSet: packed curves, evaluated into numpy's arrays.
+#include <simdbezier/bounds.hpp>
 #include <simdbezier/curves.hpp>
-#include <simdbezier/error_bounds.hpp>
 
 #include "python/src/py_set.hpp"
 

@@ -55,8 +55,7 @@ void require_ok(Status status, const std::string& argument) {
   }
 }
 
-void require_ok(const PackReport& report, const std::string& weights,
-                const std::string& parameter) {
+void require_ok(const Report& report, const std::string& weights, const std::string& parameter) {
   if (report) {
     return;
   }
@@ -67,12 +66,12 @@ void require_ok(const PackReport& report, const std::string& weights,
       require_ok(report.status, parameter);
     }
     throw_value_error("points", std::string(to_string(report.status)) + " (patch " +
-                                    std::to_string(report.patch) + ", point " +
+                                    std::to_string(report.item) + ", point " +
                                     std::to_string(report.point) + ", component " +
                                     std::to_string(report.component) + ")");
   case Status::bad_weight:
     throw_value_error(weights, std::string(to_string(report.status)) + " (patch " +
-                                   std::to_string(report.patch) + ", point " +
+                                   std::to_string(report.item) + ", point " +
                                    std::to_string(report.point) + ")");
   default:
     require_ok(report.status, "points");

@@ -24,7 +24,7 @@ namespace py = pybind11;
 void require_ok(Status status, const std::string& argument);
 /// Throws where the report is not ok, and names the control point at fault, or `parameter` where
 /// none is. weights: the argument that weights came with.
-void require_ok(const PackReport& report, const std::string& weights, const std::string& parameter);
+void require_ok(const Report& report, const std::string& weights, const std::string& parameter);
 
 /// Makes the exception that throw_index_error() throws part of the module.
 void add_errors(py::module_& module);

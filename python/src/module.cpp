@@ -3,7 +3,7 @@
 
 #include <pybind11/stl.h>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/version.hpp>
 
 namespace simdbezier::python {

@@ -2,7 +2,6 @@
 #include <array>
 #include <limits>
 
-#include <simdbezier/bases.hpp>
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/nets.hpp>
 
@@ -51,7 +50,7 @@ py::object operate(const GivenPoints& given, Degrees degrees, Call call) {
           arrays[k] = room_for(in, degree_u, degree_v);
           out[k] = view_of(arrays[k], in);
         }
-        NetReport report;
+        Report report;
         {
           const py::gil_scoped_release release;
           report = call(in, out);
@@ -175,7 +174,7 @@ py::object boxes(const GivenPoints& given, Call call) {
         py::array_t<S> low(shape);
         py::array_t<S> high(shape);
         const Boxes<S> out{low.mutable_data(), high.mutable_data()};
-        NetReport report;
+        Report report;
         {
           const py::gil_scoped_release release;
           report = call(in, out);
@@ -205,7 +204,7 @@ py::object flatness_of(const py::object& points, const py::object& weights,
         const ControlNets<S>& in = only_one(nets);
         py::array_t<S> values(static_cast<py::ssize_t>(in.count));
         const Values<S> out(values.mutable_data());
-        NetReport report;
+        Report report;
         {
           const py::gil_scoped_release release;
           report = flatness(in, out);

@@ -1,7 +1,7 @@
 // PatchSet: packed patches, evaluated into numpy's arrays.
 #include <cmath>
 
-#include <simdbezier/error_bounds.hpp>
+#include <simdbezier/bounds.hpp>
 #include <simdbezier/evaluate.hpp>
 
 #include "python/src/py_set.hpp"

@@ -167,7 +167,7 @@ private:
   template <typename T, typename Views>
   void pack_as(const Views& points, const PackOptions& options) {
     Set<T> packed;
-    PackReport report;
+    Report report;
     {
       const py::gil_scoped_release release;
       report = pack(packable(points), packed, options);

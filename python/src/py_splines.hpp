@@ -99,17 +99,17 @@ struct GivenSpline {
 };
 
 /// Throws where a report about control points is not ok.
-void require_points(const SplineReport& report, const GivenSpline& spline,
+void require_points(const Report& report, const GivenSpline& spline,
                     const std::string& argument = "points");
 
 /// A set that whoever asks first packs, while others wait.
 template <typename Set>
 class PackedOnce {
 public:
-  /// pack(set) returns a SplineReport, without Python's lock.
+  /// pack(set) returns a Report, without Python's lock.
   template <typename Pack>
   const Set& get(const GivenSpline& spline, const Pack& pack) {
-    SplineReport report;
+    Report report;
     {
       const py::gil_scoped_release release;
       const std::scoped_lock lock(packing_);
@@ -137,9 +137,9 @@ private:
                                          const char* argument);
 
 /// Throws where a report about knots, ranges and numbers of points is not ok.
-void require_knots(const SplineReport& report, const GivenSpline& spline);
+void require_knots(const Report& report, const GivenSpline& spline);
 /// Throws where a report of locate() and evaluations is about a parameter, which are called so.
-void require_parameters(const SplineReport& report, const GivenSpline& spline,
+void require_parameters(const Report& report, const GivenSpline& spline,
                         const std::vector<std::pair<const char*, const double*>>& parameters);
 
 /// Where samples lie: what locate() gives.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <simdbezier/derivatives.hpp>
+#include <simdbezier/evaluate.hpp>
 
 namespace simdbezier::python {
 namespace {
@@ -73,7 +73,7 @@ int order_of(const py::object& value, const std::string& argument) {
 /// Whether it is the product of a point and its weight that overflows, rather than a patch made of
 /// sound ones. Of such a patch, reports have no point.
 template <typename S>
-bool product_overflows(const SplineReport& report, const OwnPoints& points, std::ptrdiff_t values) {
+bool product_overflows(const Report& report, const OwnPoints& points, std::ptrdiff_t values) {
   if (points.weights != Weights::cartesian || report.component >= points.components) {
     return false;
   }
@@ -174,7 +174,7 @@ SplineDirection spline_direction(const py::object& degree, const py::object& kno
   return direction;
 }
 
-void require_knots(const SplineReport& report, const GivenSpline& spline) {
+void require_knots(const Report& report, const GivenSpline& spline) {
   const bool is_v = report.component == 1;
   const bool is_curve = spline.points.array && spline.points.array.ndim() == 2;
   const SplineDirection& direction = is_v ? spline.v : spline.u;
@@ -207,8 +207,7 @@ void require_knots(const SplineReport& report, const GivenSpline& spline) {
   }
 }
 
-void require_points(const SplineReport& report, const GivenSpline& spline,
-                    const std::string& argument) {
+void require_points(const Report& report, const GivenSpline& spline, const std::string& argument) {
   const bool is_product = report.status == Status::coefficient_overflow &&
                           (spline.points_are_float()
                                ? product_overflows<float>(report, spline.points, spline.values())
@@ -230,7 +229,7 @@ void require_points(const SplineReport& report, const GivenSpline& spline,
   require_ok(report.status, argument);
 }
 
-void require_parameters(const SplineReport& report, const GivenSpline& spline,
+void require_parameters(const Report& report, const GivenSpline& spline,
                         const std::vector<std::pair<const char*, const double*>>& parameters) {
   if (report.status == Status::bad_range || report.status == Status::non_finite_input) {
     const bool is_v = report.component == 1;

@@ -97,25 +97,25 @@ private:
 
   /// Fills pieces, `values` being all of their memory.
   template <typename S>
-  SplineReport cut(S* values, std::span<Interval> intervals) const {
+  Report cut(S* values, std::span<Interval> intervals) const {
     const std::size_t count = spans() * static_cast<std::size_t>((degree() + 1) * given_.values());
     return simdbezier::to_bezier(given_.curve<S>(given_.points.array),
                                  Values<S>(std::span<S>(values, count)), intervals);
   }
 
   template <typename S>
-  SplineReport pack_as(AnyCurveSet& packed) const {
+  Report pack_as(AnyCurveSet& packed) const {
     intervals_.resize(spans());
     std::vector<S> values(intervals_.size() *
                           static_cast<std::size_t>((degree() + 1) * given_.values()));
-    if (const SplineReport report = cut(values.data(), intervals_); !report) {
+    if (const Report report = cut(values.data(), intervals_); !report) {
       return report;
     }
     const auto curves = ControlCurves<S>::packed(std::span<const S>(values), degree(), components(),
                                                  given_.points.weights);
-    const auto pack_to = [&]<typename T>(std::type_identity<T>) -> SplineReport {
+    const auto pack_to = [&]<typename T>(std::type_identity<T>) -> Report {
       CurveSet<T> set;
-      const PackReport report = pack(curves, set);
+      const Report report = pack(curves, set);
       packed = std::move(set);
       return {report.status};
     };
@@ -127,7 +127,7 @@ private:
   [[nodiscard]] py::object pieces() const {
     py::array_t<S> array(shape<S>());
     S* const values = array.mutable_data();
-    SplineReport report;
+    Report report;
     {
       const py::gil_scoped_release release;
       report = cut(values, {});

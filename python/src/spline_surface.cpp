@@ -131,12 +131,12 @@ private:
   }
 
   template <typename S>
-  SplineReport pack_as(AnyPatchSet& packed) const {
+  Report pack_as(AnyPatchSet& packed) const {
     const SplineSurface<S> surface = given_.surface<S>(given_.points.array);
     intervals_.resize(span_count(surface).patches());
     const auto pack_to = [&]<typename T>(std::type_identity<T>) {
       PatchSet<T> set;
-      const SplineReport report = pack(surface, set, intervals_);
+      const Report report = pack(surface, set, intervals_);
       packed = std::move(set);
       return report;
     };
@@ -152,7 +152,7 @@ private:
     const MutableNets<S> out = MutableNets<S>::packed(
         array.mutable_data(), static_cast<std::size_t>(array.shape(0)), given_.u.degree,
         given_.v.degree, components(), given_.points.weights);
-    SplineReport report;
+    Report report;
     {
       const py::gil_scoped_release release;
       report = simdbezier::to_bezier(given_.surface<S>(given_.points.array), out);
@@ -186,7 +186,7 @@ private:
     py::dict result;
     if (!only_derivatives(wanted, outputs, out)) {
       const SplineSurface<double> axes = given_.surface_axes();
-      SplineReport report;
+      Report report;
       const auto evaluate_some = [&]<typename T>(const PatchSet<T>& of) {
         return evaluate_outputs<Patches, T>(
             components(), samples, outputs, out, at.inputs(), threads,

@@ -1,7 +1,6 @@
 // tessellate(): a mesh of patches or of splines.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <simdbezier/mesh.hpp>
 
@@ -16,9 +15,10 @@ void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
                    MeshOptions& options) {
   if (has_dimensions(tolerance)) { // one a patch
     several = parameters<double>(tolerance, "tolerance");
-    options.tolerances = span_of(several);
+    options.rates.tolerances = span_of(several);
   } else {
-    options.tolerance = positive(number_or_infinity(tolerance, "tolerance"), false, "tolerance");
+    options.rates.tolerance =
+        positive(number_or_infinity(tolerance, "tolerance"), false, "tolerance");
   }
 }
 
@@ -44,19 +44,19 @@ void set_grid(const py::object& grid, MeshOptions& options) {
   options.nv = samples(1);
 }
 
-/// Reads degrees; all normals are merged without them.
-double crease_angle(const py::object& crease) {
+/// Reads degrees, infinite ones if there are none: all normals are merged then.
+double crease_degrees(const py::object& crease) {
   const double degrees = positive(number_or_infinity(crease, "crease"), true, "crease");
   if (degrees > 180 && !crease.is_none()) {
     throw_value_error("crease", "expected degrees from 0 to 180, found " +
                                     py::str(crease).cast<std::string>());
   }
-  return degrees * std::numbers::pi / 180;
+  return degrees;
 }
 
 std::string blamed(Status status, const MeshOptions& options, const char* weights) {
   const bool relative = std::isfinite(options.relative_tolerance);
-  const bool absolute = std::isfinite(options.tolerance) || !options.tolerances.empty();
+  const bool absolute = std::isfinite(options.rates.tolerance) || !options.rates.tolerances.empty();
   switch (status.code()) {
   case Status::bad_tolerance: // all else that it is about has been checked
     return relative && absolute ? "tolerance or relative" : relative ? "relative" : "tolerance";
@@ -74,10 +74,10 @@ std::string blamed(Status status, const MeshOptions& options, const char* weight
 }
 
 void require_tolerances(const MeshOptions& options, std::size_t patches) {
-  if (!options.tolerances.empty() && options.tolerances.size() != patches) {
+  if (!options.rates.tolerances.empty() && options.rates.tolerances.size() != patches) {
     throw_value_error("tolerance", "expected a number, or one for each of " +
                                        std::to_string(patches) + " patches, found " +
-                                       std::to_string(options.tolerances.size()));
+                                       std::to_string(options.rates.tolerances.size()));
   }
 }
 void require_space(int components) {
@@ -95,12 +95,12 @@ py::object made_mesh(const MeshOptions& options, const char* weights, Make make)
     const py::gil_scoped_release release;
     mesh = make();
   }
-  const std::string argument = blamed(mesh.status, options, weights);
-  if (!mesh && mesh.fault_patch > 0) {
-    throw_value_error(argument, std::string(to_string(mesh.status)) + " (patch " +
-                                    std::to_string(mesh.fault_patch) + ")");
+  const std::string argument = blamed(mesh.report.status, options, weights);
+  if (!mesh && mesh.report.item > 0) {
+    throw_value_error(argument, std::string(to_string(mesh.report.status)) + " (patch " +
+                                    std::to_string(mesh.report.item) + ")");
   }
-  require_ok(mesh.status, argument);
+  require_ok(mesh.report.status, argument);
   return mesh_object(std::move(mesh));
 }
 
@@ -131,16 +131,16 @@ py::object tessellated(const std::vector<const GivenSpline*>& splines, const Mes
     require_space(one->points.components);
   }
   require_tolerances(options, patches);
-  SplineReport report;
+  Report report;
   const auto make = [&] {
     Mesh<T> mesh =
         simdbezier::tessellate<T>(std::span<const SplineSurface<S>>(surfaces), options, &report);
-    mesh.status = report ? mesh.status : Status(Status::ok); // reported below
+    mesh.report.status = report ? mesh.report.status : Status(Status::ok); // reported below
     return mesh;
   };
   py::object mesh = made_mesh<T>(options, "points", make);
-  require_points(report, *splines[report.surface],
-                 splines.size() == 1 ? "points" : "points[" + std::to_string(report.surface) + "]");
+  require_points(report, *splines[report.item],
+                 splines.size() == 1 ? "points" : "points[" + std::to_string(report.item) + "]");
   return mesh;
 }
 
@@ -191,16 +191,18 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
   options.relative_tolerance =
       positive(number_or_infinity(relative, "relative"), false, "relative");
   set_grid(grid, options);
-  options.crease_angle = crease_angle(crease);
-  options.longest_edge =
+  const double degrees = crease_degrees(crease);
+  options.share_vertices = degrees > 0;
+  options.crease_degrees = degrees > 0 ? degrees : kUnlimited;
+  options.rates.longest_edge =
       positive(number_or_infinity(longest_edge, "longest_edge"), false, "longest_edge");
   options.normals = flag(normals, "normals");
   options.parameters = flag(parameters, "parameters");
-  options.orient = flag(orient, "orient");
-  options.flip = flag(flip, "flip");
-  options.snap = positive(number(snap, "snap"), true, "snap");
+  options.topology.orient = flag(orient, "orient");
+  options.topology.flip = flag(flip, "flip");
+  options.topology.snap = positive(number(snap, "snap"), true, "snap");
   options.split_edges = flag(split_edges, "split_edges");
-  options.point_size = positive(number(point_size, "point_size"), true, "point_size");
+  options.topology.point_size = positive(number(point_size, "point_size"), true, "point_size");
   options.drop_repeated = flag(drop_repeated, "drop_repeated");
   options.threads = thread_count(threads);
   const bool measured = !tolerance.is_none() || !relative.is_none() || !longest_edge.is_none();

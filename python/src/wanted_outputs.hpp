@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <simdbezier/sample_status.hpp>
+#include <simdbezier/outputs.hpp>
 #include <simdbezier/status.hpp>
-#include <simdbezier/vectors.hpp>
 
 #include "python/src/arrays.hpp"
 

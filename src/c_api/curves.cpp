@@ -1,5 +1,5 @@
 // Curves of simdbezier.h.
-#include <simdbezier/iso_curves.hpp>
+#include <simdbezier/curves.hpp>
 
 #include "src/c_api/evaluate_set.hpp"
 #include "src/nets/net_call.hpp"
@@ -99,9 +99,9 @@ simdbezier_status iso_points(const char* function, const simdbezier_nets* nets,
     const Path path{"nets"};
     const simdbezier_nets given = read(nets, path);
     const Values<double> out = span_of(points, length, {"points"});
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
-      const PackReport report = call(nets_of<S>(given, path), out, *how);
+      const Report report = call(nets_of<S>(given, path), out, how);
       require_ok(report, [&](Status status) {
         if (status == Status::non_finite_input && report.point < 0) {
           return Path{parameter};

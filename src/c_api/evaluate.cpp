@@ -1,7 +1,5 @@
 // Patches at samples: evaluations of simdbezier.h.
-#include <simdbezier/derivatives.hpp>
 #include <simdbezier/evaluate.hpp>
-#include <simdbezier/tiles.hpp>
 
 #include "src/c_api/evaluate_set.hpp"
 #include "src/c_api/outputs.hpp"
@@ -91,9 +89,9 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
         wanted.push_back(
             {one.order_u, one.order_v, vectors_of<T>(one.out, Path{"derivatives", k} / "out")});
       }
-      const CallOptions how(options);
+      const Options how = call_options_of(options);
       const DerivativeOutputs<T> out(wanted, first_component);
-      require_ok(evaluate_derivatives(patches, where, out, *how), [&](Status status) -> Path {
+      require_ok(evaluate_derivatives(patches, where, out, how), [&](Status status) -> Path {
         if (status == Status::bad_components) {
           return {"first_component"};
         }
@@ -217,7 +215,7 @@ simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const Grid<T> where = where_of<T>(grid);
       const TileFormat as = format_of(format);
-      const CallOptions how(options);
+      const Options how = call_options_of(options);
       const auto hand_over = [&](const Tile<T>& tile) {
         const simdbezier_outputs out = given_back(tile.out, tile.samples);
         const simdbezier_tile known{
@@ -226,7 +224,7 @@ simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
             tile.worker};
         function(&known, context);
       };
-      require_ok(evaluate_tiles(patches, where, as, hand_over, *how), [](Status status) {
+      require_ok(evaluate_tiles(patches, where, as, hand_over, how), [](Status status) {
         const Path blamed = blamed_in_call(status, kGrid);
         return blamed.is_of(kOut) ? Path{"format"} : blamed;
       });

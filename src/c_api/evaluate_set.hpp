@@ -65,8 +65,8 @@ simdbezier_status evaluate_set(const char* function, const Handle* handle, const
     with_object(
         handle, {"set"}, [&]<template <typename> typename Set, typename T>(const Set<T>& set) {
           const auto call = read(std::type_identity<T>());
-          const CallOptions how(options);
-          require_ok(evaluate(set, call.where, call.out, *how), [&](Status status) {
+          const Options how = call_options_of(options);
+          require_ok(evaluate(set, call.where, call.out, how), [&](Status status) {
             const Path blamed = blamed_in_call(status, path);
             return blamed.is_of({"out"}) && blamed.member == nullptr
                        ? blamed_output(call.out, status, sample_count(set, call.where),

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include <simdbezier.h>
-#include <simdbezier/patch_set.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier::c_api {
@@ -66,10 +65,10 @@ void require_ok(Status status, PathOf path_of) {
   }
 }
 template <typename PathOf>
-void require_ok(const PackReport& report, PathOf path_of) {
+void require_ok(const Report& report, PathOf path_of) {
   if (!report) {
-    throw Fault{code_of(report.status), path_of(report.status), report.patch, report.point,
-                report.component};
+    throw Fault{code_of(report.status), path_of(report.status), report.item,
+                static_cast<int>(report.point), report.component};
   }
 }
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "src/c_api/views.hpp"
 
@@ -206,6 +206,10 @@ size_t simdbezier_available_isas(simdbezier_isa* isas, size_t length) {
 
 int simdbezier_fuses_multiply_add(simdbezier_isa isa) {
   return is_isa(isa) && fuses_multiply_add(static_cast<Isa>(isa)) ? 1 : 0;
+}
+
+simdbezier_isa simdbezier_take_executed_isa() {
+  return static_cast<simdbezier_isa>(take_executed_isa());
 }
 
 simdbezier_status simdbezier_resolve_isa(simdbezier_isa requested, simdbezier_isa* chosen) {

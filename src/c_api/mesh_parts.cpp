@@ -1,5 +1,5 @@
 // Parts of a model, and single vertices, of simdbezier.h.
-#include <simdbezier/mesh_parts.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include <cstddef>
 
@@ -48,9 +48,9 @@ simdbezier_status simdbezier_find_patch_keys(const simdbezier_nets* nets, size_t
                                              const simdbezier_options* options) {
   return answer(__func__, [&] {
     const std::span<simdbezier_patch_keys> out = span_of(keys, keys_length, {"keys"});
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      require_ok(find_patch_keys(views, in_place<PatchKeys>(out), *how), [](Status status) {
+      require_ok(find_patch_keys(views, in_place<PatchKeys>(out), how), [](Status status) {
         return status == Status::output_too_small ? Path{"keys"} : blamed_nets(status, {"nets"});
       });
     });

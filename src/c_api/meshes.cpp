@@ -29,22 +29,24 @@ double limit_of(double value) {
 MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
   const simdbezier_mesh_options known = read(given, kOptions);
   MeshOptions options;
-  options.tolerance = limit_of(known.tolerance);
+  options.rates.tolerance = limit_of(known.tolerance);
   options.relative_tolerance = limit_of(known.relative_tolerance);
-  options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
+  options.rates.tolerances =
+      span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
   options.pixels = limit_of(known.pixels);
   require(known.pixels == 0 || known.camera != nullptr, SIMDBEZIER_NULL_INPUT, kOptions / "camera");
   options.camera = camera_of(known.camera, kOptions / "camera");
-  options.longest_edge = limit_of(known.longest_edge);
-  options.normal_angle = limit_of(known.normal_angle);
+  options.rates.longest_edge = limit_of(known.longest_edge);
+  options.rates.normal_degrees = limit_of(known.normal_degrees);
   options.nu = known.nu;
   options.nv = known.nv;
-  options.point_size = known.point_size;
-  options.snap = known.snap;
+  options.topology.point_size = known.point_size;
+  options.topology.snap = known.snap;
   options.split_edges = known.split_edges != 0;
-  options.crease_angle = known.unshared != 0 ? 0 : limit_of(known.crease_angle);
-  options.orient = known.orient != 0;
-  options.flip = known.flip != 0;
+  options.crease_degrees = limit_of(known.crease_degrees);
+  options.share_vertices = known.unshared == 0;
+  options.topology.orient = known.orient != 0;
+  options.topology.flip = known.flip != 0;
   options.drop_repeated = known.drop_repeated != 0;
   options.normals = known.no_normals == 0;
   options.parameters = known.parameters != 0;
@@ -61,8 +63,8 @@ const char* blamed_measure(const MeshOptions& options) {
   if (const char* const meaningless = detail::meaningless_measure(options)) {
     return meaningless;
   }
-  return !options.tolerances.empty()                 ? "tolerances"
-         : std::isfinite(options.tolerance)          ? "tolerance"
+  return !options.rates.tolerances.empty()           ? "tolerances"
+         : std::isfinite(options.rates.tolerance)    ? "tolerance"
          : std::isfinite(options.relative_tolerance) ? "relative_tolerance"
          : std::isfinite(options.pixels)             ? "pixels or camera"
                                                      : "tolerance";
@@ -121,10 +123,10 @@ simdbezier_mesh_plan_parts parts_of(const simdbezier_mesh_plan& plan) noexcept {
   known.layout = &plan.layout;
   std::visit(
       [&](const auto& of) {
-        known.patch_count = of.nu.size();
+        known.patch_count = of.cells_u.size();
         known.patches = first_of(of.patches);
-        known.nu = first_of(of.nu);
-        known.nv = first_of(of.nv);
+        known.cells_u = first_of(of.cells_u);
+        known.cells_v = first_of(of.cells_v);
         known.deviations = first_of(of.deviations);
         known.deviation = of.deviation;
         known.diagonal = of.diagonal;
@@ -142,8 +144,9 @@ template <typename Handle, typename Made, typename BlamedPoints>
 void give_made(Made&& made, const MeshOptions& options, Handle** handle,
                BlamedPoints blamed_points) {
   if (!made) {
-    throw Fault{code_of(made.status), blamed_in_tessellation(made.status, options, blamed_points),
-                made.fault_patch};
+    throw Fault{code_of(made.report.status),
+                blamed_in_tessellation(made.report.status, options, blamed_points),
+                made.report.item};
   }
   give(handle, std::forward<Made>(made));
 }
@@ -159,7 +162,7 @@ simdbezier_status make(const char* function, const simdbezier_nets* nets, std::s
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         auto made = call.template operator()<T>(views, how);
-        const std::size_t patch = made.fault_patch;
+        const std::size_t patch = made.report.item;
         give_made(std::move(made), how, handle, [&](Status status) {
           return blamed_nets(status, nets_with_patch(views, patch));
         });
@@ -179,10 +182,10 @@ simdbezier_status make(const char* function, const simdbezier_spline_surface* su
     const MeshOptions how = mesh_options_of(options);
     with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
-        SplineReport report;
+        Report report;
         auto made = call.template operator()<T>(views, how, &report);
-        require_spline(report, {"surfaces", report.surface}, kSurfaceNames);
-        const std::size_t patch = made.fault_patch;
+        require_spline(report, {"surfaces", report.item}, kSurfaceNames);
+        const std::size_t patch = made.report.item;
         give_made(std::move(made), how, handle, [&](Status status) {
           std::size_t k = 0;
           std::size_t end = 0; // of the patches of surface k

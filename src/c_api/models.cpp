@@ -1,5 +1,4 @@
 // Adjacency and topology of simdbezier.h.
-#include <simdbezier/adjacency.hpp>
 #include <simdbezier/topology.hpp>
 
 #include "src/c_api/handles.hpp"
@@ -30,10 +29,10 @@ simdbezier_status simdbezier_find_adjacency(const simdbezier_nets* nets, size_t 
                                             const simdbezier_options* options) {
   return answer(__func__, [&] {
     const std::span<simdbezier_edge_link> out = span_of(links, link_length, {"links"});
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       const std::span<EdgeLink> places = in_place<EdgeLink>(out);
-      require_ok(find_adjacency(views, Values<EdgeLink>(places), *how), [&](Status status) {
+      require_ok(find_adjacency(views, Values<EdgeLink>(places), how), [&](Status status) {
         const bool output = status == Status::null_output || status == Status::output_too_small ||
                             status == Status::overlapping_outputs;
         return output ? Path{"links"} : blamed_nets(status, {"nets"});
@@ -55,8 +54,7 @@ simdbezier_status simdbezier_find_topology(const simdbezier_nets* nets, size_t l
       how.orient = known.orient != 0;
       how.flip = known.flip != 0;
       how.snap = known.snap;
-      how.threads = known.threads;
-      require_ok(find_topology(views, found, how), [&](Status status) {
+      require_ok(find_topology(views, found, how, {.threads = known.threads}), [&](Status status) {
         return status == Status::bad_tolerance    ? kOptions / "point_size or snap"
                : status == Status::not_orientable ? kOptions / "orient"
                                                   : blamed_nets(status, {"nets"});
@@ -75,7 +73,7 @@ simdbezier_status simdbezier_topology_fits(const simdbezier_topology* topology,
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       require_ok(detail::check_model(views),
                  [](Status status) { return blamed_nets(status, {"nets"}); });
-      *fits = simdbezier::fits(joined, views, only_threads(threads)) ? 1 : 0;
+      *fits = simdbezier::fits(joined, views, {.threads = threads}) ? 1 : 0;
     });
   });
 }

@@ -1,5 +1,4 @@
 // Operations on control nets of simdbezier.h.
-#include <simdbezier/bases.hpp>
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/nets.hpp>
 
@@ -45,10 +44,10 @@ simdbezier_status operate(const char* function, const simdbezier_nets* nets,
                           const simdbezier_options* options, const Path& out, Body body) noexcept {
   return answer(function, [&] {
     const simdbezier_nets given = read(nets, kNets);
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_scalar(given.scalar, kNets / "scalar", [&]<typename T>() {
       const ControlNets<T> in = nets_of<T>(given, kNets);
-      require_ok(body(in, *how), [&](Status status) { return blamed(status, is_sound(in), out); });
+      require_ok(body(in, how), [&](Status status) { return blamed(status, is_sound(in), out); });
     });
   });
 }

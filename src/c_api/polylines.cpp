@@ -20,7 +20,6 @@ FlattenOptions flatten_options_of(const simdbezier_flatten_options* given) {
   options.tolerance = known.tolerance;
   options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
   options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
-  options.threads = known.threads;
   options.most_points = known.most_points == 0 ? kMostPolylinePoints : known.most_points;
   return options;
 }
@@ -67,22 +66,23 @@ simdbezier_status simdbezier_choose_polylines(const simdbezier_control_curves* c
                                               double* deviation, size_t deviation_length) {
   return answer(__func__, [&] {
     const FlattenOptions how = flatten_options_of(options);
+    const RunOptions run{.threads = read(options, kOptions).threads};
     const std::span<std::uint32_t> to = span_of(points, points_length, {"points"});
     const std::span<double> within = span_of(deviation, deviation_length, {"deviation"});
     with_curves(curves, [&](const auto& views) {
-      const FlattenReport report = choose_polylines(views, how, to, within);
+      const Report report = choose_polylines(views, how, to, within, run);
       const auto path_of = [&](Status status) {
         switch (status.code()) {
         case Status::unequal_lengths:
           return blamed_length(views.count, how, to.size());
         case Status::bad_tolerance:
-          return blamed_tolerance(how, report.curve);
+          return blamed_tolerance(how, report.item);
         default:
           return blamed_curves(status, kCurves);
         }
       };
       if (!report) {
-        throw Fault{code_of(report.status), path_of(report.status), report.curve, -1};
+        throw Fault{code_of(report.status), path_of(report.status), report.item, -1};
       }
     });
   });
@@ -94,15 +94,15 @@ simdbezier_status simdbezier_flatten(const simdbezier_control_curves* curves,
                                      simdbezier_polylines** polylines) {
   return answer(__func__, [&] {
     require_place(polylines, kPolylines);
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_curves(curves, [&](const auto& views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
-        Polylines<T> made = flatten<T>(views, tolerance, *how);
+        Polylines<T> made = flatten<T>(views, tolerance, how);
         if (!made) {
-          const bool toleranced = made.status == Status::bad_tolerance;
-          throw Fault{code_of(made.status),
-                      toleranced ? Path{"tolerance"} : blamed_curves(made.status, kCurves),
-                      made.fault_curve, -1};
+          const bool toleranced = made.report.status == Status::bad_tolerance;
+          throw Fault{code_of(made.report.status),
+                      toleranced ? Path{"tolerance"} : blamed_curves(made.report.status, kCurves),
+                      made.report.item, -1};
         }
         give(polylines, std::move(made));
       });

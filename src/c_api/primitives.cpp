@@ -1,7 +1,7 @@
 // Triangles, polygons, strips and clusters of simdbezier.h.
 #include <cstddef>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
@@ -45,7 +45,7 @@ struct Primitives {
 
 Primitives primitives_of(const simdbezier_primitive_options* given) {
   const simdbezier_primitive_options known = read_options(given, kOptions);
-  Primitives how{only_threads(known.threads), range_of(known.first_patch, known.patch_count)};
+  Primitives how{{.threads = known.threads}, range_of(known.first_patch, known.patch_count)};
   how.options.destination = destination_of(known.destination);
   return how;
 }
@@ -81,7 +81,7 @@ simdbezier_status strips_of(const char* function, const simdbezier_mesh_layout* 
                             Index* indices, std::size_t length, int threads) noexcept {
   return answer(function, [&] {
     const std::span<Index> out = span_of(indices, length, {"indices"});
-    require_ok(write_strips(object_of(layout, kLayout), out, only_threads(threads)),
+    require_ok(write_strips(object_of(layout, kLayout), out, {.threads = threads}),
                about("indices"));
   });
 }
@@ -141,7 +141,7 @@ simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, si
   return answer(__func__, [&] {
     require_number(indices, "indices");
     std::size_t size = 0;
-    require_ok(strip_size(object_of(layout, kLayout), size, only_threads(threads)), about(""));
+    require_ok(strip_size(object_of(layout, kLayout), size, {.threads = threads}), about(""));
     *indices = size;
   });
 }
@@ -163,7 +163,7 @@ simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout, 
     require_number(vertices, "vertices");
     require_number(triangles, "triangles");
     ClusterSize size;
-    require_ok(cluster_size(object_of(layout, kLayout), size, only_threads(threads)), about(""));
+    require_ok(cluster_size(object_of(layout, kLayout), size, {.threads = threads}), about(""));
     *clusters = size.clusters;
     *vertices = size.vertices;
     *triangles = size.triangles;
@@ -180,7 +180,7 @@ simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout
     const ClusterOutputs out{in_place<MeshCluster>(to),
                              span_of(vertices, vertices_length, {"vertices"}),
                              span_of(corners, corners_length, {"corners"})};
-    require_ok(write_clusters(object_of(layout, kLayout), out, only_threads(threads)),
+    require_ok(write_clusters(object_of(layout, kLayout), out, {.threads = threads}),
                about("clusters, vertices or corners"));
   });
 }

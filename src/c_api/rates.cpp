@@ -19,28 +19,30 @@ static_assert(std::uint32_t{SIMDBEZIER_MOST_SEGMENTS} == kMostSegments);
 static_assert(std::uint32_t{SIMDBEZIER_MOST_GRID_CELLS} == kMostGridCells);
 
 struct RateSpans {
-  std::span<std::uint32_t> nu;
-  std::span<std::uint32_t> nv;
+  std::span<std::uint32_t> cells_u;
+  std::span<std::uint32_t> cells_v;
   std::span<std::uint16_t> diagonals;
   std::span<double> deviation;
 };
 
 RateSpans rates_of(const simdbezier_rates* given) {
   const simdbezier_rates known = read(given, kRates);
-  return {span_of(known.nu, known.nu_length, kRates / "nu"),
-          span_of(known.nv, known.nv_length, kRates / "nv"),
+  return {span_of(known.cells_u, known.cells_u_length, kRates / "cells_u"),
+          span_of(known.cells_v, known.cells_v_length, kRates / "cells_v"),
           span_of(known.diagonals, known.diagonals_length, kRates / "diagonals"),
           span_of(known.deviation, known.deviation_length, kRates / "deviation")};
 }
 
 CertifiedRates certified(const RateSpans& rates) {
-  return {rates.nu, rates.nv, rates.diagonals, rates.deviation};
+  return {rates.cells_u, rates.cells_v, rates.diagonals, rates.deviation};
 }
 
 RateOptions rate_options_of(const simdbezier_rate_options* given) {
   const simdbezier_rate_options known = read(given, kOptions);
   RateOptions options;
-  options.tolerance = known.tolerance;
+  if (known.tolerance != 0) {
+    options.tolerance = known.tolerance;
+  }
   options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
   options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
   if (known.longest_edge != 0) {
@@ -49,11 +51,9 @@ RateOptions rate_options_of(const simdbezier_rate_options* given) {
   if (known.most_segments != 0) {
     options.most_segments = known.most_segments;
   }
-  if (known.normal_angle != 0) {
-    options.normal_angle = known.normal_angle;
+  if (known.normal_degrees != 0) {
+    options.normal_degrees = known.normal_degrees;
   }
-  options.threads = known.threads;
-  options.isa = isa_of(known.isa, kOptions / "isa");
   options.keep = known.keep;
   return options;
 }
@@ -61,8 +61,8 @@ RateOptions rate_options_of(const simdbezier_rate_options* given) {
 /// What bad_rates is about: the first span that is not one value a patch, else rates themselves.
 Path blamed_rates(const RateSpans& rates, std::size_t patches, bool without_diagonals) {
   const std::tuple<const char*, std::size_t, bool> members[] = {
-      {"nu", rates.nu.size(), false},
-      {"nv", rates.nv.size(), false},
+      {"cells_u", rates.cells_u.size(), false},
+      {"cells_v", rates.cells_v.size(), false},
       {"diagonals", rates.diagonals.size(), without_diagonals},
       {"deviation", rates.deviation.size(), rates.deviation.empty()}};
   for (const auto& [name, length, is_left_out] : members) {
@@ -70,7 +70,7 @@ Path blamed_rates(const RateSpans& rates, std::size_t patches, bool without_diag
       return kRates / name;
     }
   }
-  return kRates / "nu or nv";
+  return kRates / "cells_u or cells_v";
 }
 
 /// The rates that a call with a topology is about, which may be that of another model.
@@ -83,13 +83,14 @@ Path blamed_limit(const RateOptions& options, std::size_t patch) {
   if (!(options.longest_edge > 0)) {
     return kOptions / "longest_edge";
   }
-  return options.normal_angle > 0 ? blamed_tolerance(options, patch) : kOptions / "normal_angle";
+  return options.normal_degrees > 0 ? blamed_tolerance(options, patch)
+                                    : kOptions / "normal_degrees";
 }
 
 /// Refuses the call as C++ did. blamed(status) names what bad_tolerance and bad_rates are about.
 /// Only options name an instruction set.
 template <typename S, typename Blamed>
-void require_rates(const RateReport& report, std::span<const ControlNets<S>> nets, Blamed blamed) {
+void require_rates(const Report& report, std::span<const ControlNets<S>> nets, Blamed blamed) {
   if (report) {
     return;
   }
@@ -104,10 +105,10 @@ void require_rates(const RateReport& report, std::span<const ControlNets<S>> net
     case Status::unsupported_isa:
       return kOptions / "isa";
     default:
-      return blamed_nets(report.status, nets_with_patch(nets, report.patch));
+      return blamed_nets(report.status, nets_with_patch(nets, report.item));
     }
   };
-  throw Fault{code_of(report.status), blamed_here(), report.patch};
+  throw Fault{code_of(report.status), blamed_here(), report.item};
 }
 
 } // namespace
@@ -123,13 +124,15 @@ simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t le
   return answer(__func__, [&] {
     const RateSpans out = rates_of(rates);
     const RateOptions how = rate_options_of(options);
+    const simdbezier_rate_options known = read(options, kOptions);
+    const RunOptions run{known.threads, isa_of(known.isa, kOptions / "isa")};
     const Topology& joined = object_of(topology, kTopology);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const RateReport report = choose_rates(views, joined, how, certified(out));
+      const Report report = choose_rates(views, joined, how, certified(out), run);
       require_rates(report, views, [&](Status status) {
         const std::size_t patches = detail::patches_of(views);
         if (status == Status::bad_tolerance) {
-          return blamed_limit(how, report.patch);
+          return blamed_limit(how, report.item);
         }
         if (!is_one_each(how.errors, patches)) {
           return kOptions / "errors";
@@ -150,8 +153,8 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
     const std::span<const double> known = span_of(errors, errors_length, kErrors);
     const Topology& joined = object_of(topology, kTopology);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const RateReport report =
-          certify_rates(views, joined, known, certified(out), only_threads(threads));
+      const Report report =
+          certify_rates(views, joined, known, certified(out), {.threads = threads});
       require_rates(report, views, [&](Status status) {
         const std::size_t patches = detail::patches_of(views);
         const bool of_errors = status == Status::bad_tolerance || !is_one_each(known, patches);
@@ -161,21 +164,22 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
   });
 }
 
-simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t length, uint32_t nu,
-                                           uint32_t nv, const double* errors, size_t errors_length,
-                                           double* deviation, size_t deviation_length,
-                                           int32_t threads) {
+simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t length,
+                                           uint32_t cells_u, uint32_t cells_v, const double* errors,
+                                           size_t errors_length, double* deviation,
+                                           size_t deviation_length, int32_t threads) {
   return answer(__func__, [&] {
     const std::span<const double> known = span_of(errors, errors_length, kErrors);
     const std::span<double> out = span_of(deviation, deviation_length, {"deviation"});
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const RateReport report = certify_grids(views, nu, nv, known, out, only_threads(threads));
+      const Report report =
+          certify_grids(views, cells_u, cells_v, known, out, {.threads = threads});
       require_rates(report, views, [&](Status status) -> Path {
         const std::size_t patches = detail::patches_of(views);
         if (status == Status::bad_tolerance || !is_one_each(known, patches)) {
           return kErrors;
         }
-        return {out.size() == patches ? "nu or nv" : "deviation"};
+        return {out.size() == patches ? "cells_u or cells_v" : "deviation"};
       });
     });
   });
@@ -202,14 +206,16 @@ simdbezier_status simdbezier_pixel_tolerances(const simdbezier_nets* nets, size_
   });
 }
 
-simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology, uint32_t* nu,
-                                               size_t nu_length, uint32_t* nv, size_t nv_length,
+simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology,
+                                               uint32_t* cells_u, size_t cells_u_length,
+                                               uint32_t* cells_v, size_t cells_v_length,
                                                size_t* raised) {
   return answer(__func__, [&] {
     std::size_t changed = 0;
-    require_ok(separate_vertices(object_of(topology, kTopology), span_of(nu, nu_length, {"nu"}),
-                                 span_of(nv, nv_length, {"nv"}), changed),
-               [](Status) { return Path{"nu or nv"}; });
+    require_ok(separate_vertices(object_of(topology, kTopology),
+                                 span_of(cells_u, cells_u_length, {"cells_u"}),
+                                 span_of(cells_v, cells_v_length, {"cells_v"}), changed),
+               [](Status) { return Path{"cells_u or cells_v"}; });
     if (raised != nullptr) {
       *raised = changed;
     }
@@ -224,14 +230,15 @@ simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
     require_place(layout, {"layout"});
     const RateSpans of = rates_of(rates);
     const Topology& joined = object_of(topology, kTopology);
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     MeshLayout made;
-    require_ok(lay_out_mesh(joined, {of.nu, of.nv, of.diagonals}, made, *how), [&](Status status) {
-      if (status == Status::bad_rates) {
-        return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
-      }
-      return status == Status::out_of_memory ? Path{} : kRates;
-    });
+    require_ok(lay_out_mesh(joined, {of.cells_u, of.cells_v, of.diagonals}, made, how),
+               [&](Status status) {
+                 if (status == Status::bad_rates) {
+                   return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
+                 }
+                 return status == Status::out_of_memory ? Path{} : kRates;
+               });
     give(layout, std::move(made));
   });
 }

@@ -1,5 +1,5 @@
 // Packed sets of simdbezier.h, and their error bounds.
-#include <simdbezier/error_bounds.hpp>
+#include <simdbezier/bounds.hpp>
 #include <simdbezier/flatten.hpp>
 #include <simdbezier/rates.hpp>
 
@@ -16,7 +16,7 @@ static_assert(int{SIMDBEZIER_MOST_COMPONENTS} == kMostComponents);
 
 /// What packing was refused for: an option where no point is at fault.
 template <typename PathOf>
-void require_packed(const PackReport& report, PathOf blamed) {
+void require_packed(const Report& report, PathOf blamed) {
   require_ok(report, [&](Status status) {
     const bool option = status == Status::non_finite_input && report.point < 0;
     return option ? kOptions / "relative_to" : blamed(status);
@@ -71,9 +71,9 @@ simdbezier_status errors_of(const char* function, const Handle* set, double* err
                             std::size_t length, const simdbezier_options* options) noexcept {
   return answer(function, [&] {
     const std::span<double> out = span_of(errors, length, {"errors"});
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_object(set, kSet, [&](const auto& members) {
-      require_ok(position_errors(members, out, *how), [](Status status) {
+      require_ok(position_errors(members, out, how), [](Status status) {
         return status == Status::output_too_small ? Path{"length"} : kOptions / "isa";
       });
     });
@@ -102,9 +102,9 @@ simdbezier_status simdbezier_pack(const simdbezier_nets* nets, size_t length,
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         PatchSet<T> packed;
-        const PackReport report = pack(views, packed, how);
+        const Report report = pack(views, packed, how);
         require_packed(report, [&](Status status) {
-          return blamed_nets(status, nets_with_patch(views, report.patch));
+          return blamed_nets(status, nets_with_patch(views, report.item));
         });
         give(set, std::move(packed));
       });

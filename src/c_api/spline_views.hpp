@@ -155,13 +155,14 @@ inline Path blamed_spline(Status status, int component, const Path& spline,
 }
 
 /// Refuses a call for a fault of a report; `numbered` is whether its point is known.
-[[noreturn]] inline void refuse(const SplineReport& report, const Path& path, bool numbered) {
-  const int point = numbered ? static_cast<int>(std::min<std::size_t>(report.point, INT_MAX)) : -1;
-  throw Fault{code_of(report.status), path, report.surface, point, report.component, "spline"};
+[[noreturn]] inline void refuse(const Report& report, const Path& path, bool numbered) {
+  const int point =
+      numbered ? static_cast<int>(std::min<std::ptrdiff_t>(report.point, INT_MAX)) : -1;
+  throw Fault{code_of(report.status), path, report.item, point, report.component, "spline"};
 }
 
 /// Refuses a call for what a report says of a spline that is at fault itself.
-inline void require_spline(const SplineReport& own, const Path& spline, const SplineNames& names) {
+inline void require_spline(const Report& own, const Path& spline, const SplineNames& names) {
   if (!own) {
     const bool numbered =
         own.status == Status::bad_knots || own.status == Status::non_finite_input ||
@@ -173,8 +174,8 @@ inline void require_spline(const SplineReport& own, const Path& spline, const Sp
 /// Refuses a call for the first surface that is at fault itself, whatever is wrong besides.
 template <typename S>
 void require_surfaces(std::span<const SplineSurface<S>> surfaces) {
-  const SplineReport own = detail::SplineList<S>().prepare(surfaces);
-  require_spline(own, {"surfaces", own.surface}, kSurfaceNames);
+  const Report own = detail::SplineList<S>().prepare(surfaces);
+  require_spline(own, {"surfaces", own.item}, kSurfaceNames);
 }
 
 } // namespace simdbezier::c_api

@@ -16,15 +16,15 @@ std::span<PatchInterval> intervals_at(simdbezier_patch_interval* first, std::siz
 
 /// What a call is refused for where the surfaces are sound: what they are to become. Surfaces
 /// behind the first may differ from it.
-Path blamed_result(const SplineReport& report, const Path& out) {
-  const Path surface{"surfaces", report.surface};
+Path blamed_result(const Report& report, const Path& out) {
+  const Path surface{"surfaces", report.item};
   switch (report.status.code()) {
   case Status::unequal_lengths:
     return {"intervals_length"};
   case Status::bad_degree:
-    return report.surface > 0 ? surface / "degree_u or degree_v" : blamed_nets(report.status, out);
+    return report.item > 0 ? surface / "degree_u or degree_v" : blamed_nets(report.status, out);
   case Status::bad_components:
-    return (report.surface > 0 ? surface : out) / "components or weights";
+    return (report.item > 0 ? surface : out) / "components or weights";
   case Status::non_finite_input:
     return kOptions / "relative_to";
   case Status::coefficient_overflow:
@@ -35,15 +35,13 @@ Path blamed_result(const SplineReport& report, const Path& out) {
 }
 
 /// locate() where only knots are looked at.
-SplineReport look_at_knots(const SplineSurface<double>& surface) {
+Report look_at_knots(const SplineSurface<double>& surface) {
   return locate(surface, 0, nullptr, nullptr, {});
 }
-SplineReport look_at_knots(const SplineCurve<double>& curve) {
-  return locate(curve, 0, nullptr, {});
-}
+Report look_at_knots(const SplineCurve<double>& curve) { return locate(curve, 0, nullptr, {}); }
 
 /// Refuses a call for a parameter that is at fault, which is called names[direction].
-void require_parameters(const SplineReport& report, const char* const (&names)[2]) {
+void require_parameters(const Report& report, const char* const (&names)[2]) {
   const bool about_parameters =
       report.status == Status::bad_range || report.status == Status::non_finite_input;
   if (about_parameters) {
@@ -89,8 +87,8 @@ simdbezier_status evaluate_spline(const char* function, const simdbezier_patch_s
     const auto vs = spline_parameters(v, v_length, "v");
     with_object(set, {"set"}, [&]<typename T>(const PatchSet<T>& patches) {
       const Outputs<T> to = outputs_of<T>(out);
-      const CallOptions how(options);
-      const SplineReport report = call(patches, axes, us, vs, to, *how);
+      const Options how = call_options_of(options);
+      const Report report = call(patches, axes, us, vs, to, how);
       if (report) {
         return;
       }
@@ -147,10 +145,10 @@ simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_surface* s
   return answer(__func__, [&] {
     require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kSplineOut);
     const std::span<PatchInterval> places = intervals_at(intervals, intervals_length);
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
       const MutableNets<S> nets = nets_of<S>(read(out, kSplineOut), kSplineOut);
-      const SplineReport report = to_bezier(views, nets, places, *how);
+      const Report report = to_bezier(views, nets, places, how);
       if (!report) {
         require_surfaces(views);
         refuse(report, blamed_result(report, kSplineOut), false);
@@ -167,11 +165,11 @@ simdbezier_status simdbezier_spline_curve_to_bezier(const simdbezier_spline_curv
   return answer(__func__, [&] {
     const simdbezier_spline_curve given = read(curve, kCurve);
     const auto to = span_of(intervals, intervals_length, {"intervals"});
-    const CallOptions how(options);
+    const Options how = call_options_of(options);
     with_scalar(given.scalar, kCurve / "scalar", [&]<typename S>() {
       const SplineCurve<S> view = spline_of<S>(given, kCurve);
       const Values<S> out = values_of<S>(points, {"points"});
-      const SplineReport report = to_bezier(view, out, in_place<Interval>(to), *how);
+      const Report report = to_bezier(view, out, in_place<Interval>(to), how);
       if (!report) {
         require_spline(detail::SplineList<S>().prepare(view), kCurve, kCurveNames);
         const Path path{"points"};
@@ -197,10 +195,10 @@ simdbezier_status simdbezier_spline_pack(const simdbezier_spline_surface* surfac
     with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         PatchSet<T> packed;
-        const SplineReport report = pack(views, packed, places, how);
+        const Report report = pack(views, packed, places, how);
         if (!report) {
           require_surfaces(views);
-          refuse(report, blamed_result(report, {"surfaces", report.surface}), false);
+          refuse(report, blamed_result(report, {"surfaces", report.item}), false);
         }
         give(set, std::move(packed));
       });
@@ -217,7 +215,7 @@ simdbezier_status simdbezier_spline_locate(const simdbezier_spline_surface* surf
     const auto us = spline_parameters(u, u_length, "u");
     const auto vs = spline_parameters(v, v_length, "v");
     require(us.size() == vs.size(), SIMDBEZIER_UNEQUAL_LENGTHS, {"v_length"});
-    const SplineReport report =
+    const Report report =
         locate(axes, us.size(), us.data(), vs.data(), places_of(places, us.size(), false));
     if (!report) {
       require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
@@ -233,8 +231,7 @@ simdbezier_status simdbezier_spline_curve_locate(const simdbezier_spline_curve* 
   return answer(__func__, [&] {
     const SplineCurve<double> axis = axes_of(read(curve, kCurve), kCurve);
     const auto ts = spline_parameters(t, t_length, "t");
-    const SplineReport report =
-        locate(axis, ts.size(), ts.data(), places_of(places, ts.size(), true));
+    const Report report = locate(axis, ts.size(), ts.data(), places_of(places, ts.size(), true));
     if (!report) {
       require_spline(look_at_knots(axis), kCurve, kCurveNames);
       require_parameters(report, {"t", "t"});

@@ -3,7 +3,6 @@
 #include <tuple>
 
 #include <simdbezier/evaluate_mesh.hpp>
-#include <simdbezier/vertex_formats.hpp>
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
@@ -134,9 +133,9 @@ simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
     const MeshLayout& numbers = object_of(layout, kLayout);
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const MeshOutputs<T> to = outputs_of<T>(out);
-      const CallOptions how(options);
+      const Options how = call_options_of(options);
       const SetRange range = range_of(first_patch, patch_count);
-      require_ok(evaluate_mesh(patches, numbers, to, *how, range), [&](Status status) {
+      require_ok(evaluate_mesh(patches, numbers, to, how, range), [&](Status status) {
         return blamed_output(to, status, vertices_of(numbers, patches.size(), range));
       });
     });
@@ -154,8 +153,8 @@ simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set
     require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const Vectors<T> to = vectors_of<T>(*out, kOut);
-      const CallOptions how(options);
-      require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, *how,
+      const Options how = call_options_of(options);
+      require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, how,
                                           range_of(first_patch, patch_count)),
                  [](Status status) {
                    return status == Status::bad_components
@@ -174,9 +173,9 @@ simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
     require_place(split, {"split"});
     const MeshLayout& numbers = object_of(layout, kLayout);
     with_object(set, kSet, [&](const auto& patches) {
-      const CallOptions how(options);
+      const Options how = call_options_of(options);
       MeshLayout made;
-      require_ok(split_creases(patches, numbers, angle, made, *how), [](Status status) {
+      require_ok(split_creases(patches, numbers, angle, made, how), [](Status status) {
         return status == Status::bad_tolerance ? Path{"angle"} : blamed_in_mesh(status);
       });
       give(split, std::move(made));
@@ -230,9 +229,9 @@ simdbezier_status simdbezier_evaluate_formatted_mesh(const simdbezier_patch_set*
     const MeshLayout& numbers = object_of(layout, kLayout);
     with_object(set, kSet, [&](const auto& patches) {
       const FormattedOutputs to = outputs_of(out);
-      const CallOptions how(options);
+      const Options how = call_options_of(options);
       const SetRange range = range_of(first_patch, patch_count);
-      require_ok(evaluate_mesh(patches, numbers, to, *how, range), [&](Status status) {
+      require_ok(evaluate_mesh(patches, numbers, to, how, range), [&](Status status) {
         return status == Status::unequal_lengths || status == Status::bad_patch_range
                    ? blamed_in_mesh(status)
                    : blamed_output(to, status, vertices_of(numbers, patches.size(), range));

@@ -7,13 +7,12 @@
 #include <cstdint>
 #include <vector>
 
-#include <simdbezier/control_curves.hpp>
+#include <simdbezier/control_nets.hpp>
 #include <simdbezier/nets.hpp>
 #include <simdbezier/options.hpp>
+#include <simdbezier/outputs.hpp>
 #include <simdbezier/patch_set.hpp>
-#include <simdbezier/sample_status.hpp>
-#include <simdbezier/samples.hpp>
-#include <simdbezier/vectors.hpp>
+#include <simdbezier/status.hpp>
 
 #include "src/c_api/structs.hpp"
 #include "src/output/output_list.hpp"
@@ -29,36 +28,12 @@ inline Destination destination_of(simdbezier_destination destination) {
   return choice(destination, Destination::memory, kOptions / "destination");
 }
 
-/// Options, and the instruction set that ran, handed back to the caller.
-class CallOptions {
-public:
-  explicit CallOptions(const simdbezier_options* given) : given_(read_options(given, kOptions)) {
-    options_.threads = given_.threads;
-    options_.watertight = given_.not_watertight == 0;
-    options_.isa = isa_of(given_.isa, kOptions / "isa");
-    options_.destination = destination_of(given_.destination);
-    options_.executed = given_.executed == nullptr ? nullptr : &executed_;
-  }
-  CallOptions(const CallOptions&) = delete;
-  CallOptions& operator=(const CallOptions&) = delete;
-  ~CallOptions() {
-    if (given_.executed != nullptr && executed_ != Isa::automatic) {
-      *given_.executed = static_cast<simdbezier_isa>(executed_);
-    }
-  }
-  [[nodiscard]] const Options& operator*() const noexcept { return options_; }
-
-private:
-  simdbezier_options given_;
-  Options options_;
-  Isa executed_ = Isa::automatic;
-};
-
-/// The options of a call that takes nothing but a number of threads.
-inline Options only_threads(std::int32_t threads) {
-  Options options;
-  options.threads = threads;
-  return options;
+inline Options call_options_of(const simdbezier_options* given) {
+  const simdbezier_options known = read_options(given, kOptions);
+  return {.threads = known.threads,
+          .isa = isa_of(known.isa, kOptions / "isa"),
+          .watertight = known.not_watertight == 0,
+          .destination = destination_of(known.destination)};
 }
 
 inline PackOptions pack_options_of(const simdbezier_pack_options* given) {

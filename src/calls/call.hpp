@@ -25,7 +25,7 @@
 
 #include <simdbezier/curves.hpp>
 #include <simdbezier/options.hpp>
-#include <simdbezier/samples.hpp>
+#include <simdbezier/patch_set.hpp>
 
 #include "src/choice/destined_call.hpp"
 #include "src/output/output_list.hpp"

@@ -2,7 +2,7 @@
 // a grid become single ones, whose parameters have the grid's bits.
 #include <algorithm>
 
-#include <simdbezier/derivatives.hpp>
+#include <simdbezier/evaluate.hpp>
 
 #include "src/calls/call.hpp"
 #include "src/calls/grid_plan.hpp"

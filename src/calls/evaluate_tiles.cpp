@@ -2,7 +2,7 @@
 // the caller's function.
 #include <algorithm>
 
-#include <simdbezier/tiles.hpp>
+#include <simdbezier/evaluate.hpp>
 
 #include "src/calls/call.hpp"
 #include "src/calls/piece_evaluator.hpp"

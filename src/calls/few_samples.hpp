@@ -10,9 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <simdbezier/isa.hpp>
 #include <simdbezier/options.hpp>
-#include <simdbezier/samples.hpp>
+#include <simdbezier/patch_set.hpp>
 
 #include "src/calls/sample_pieces.hpp"
 #include "src/exact/normal_fallback.hpp"
@@ -165,7 +164,7 @@ private:
         to.z[at] = values[k][2][n];
       }
     }
-    report(task.executed, options_);
+    note_executed(task.executed);
   }
 
   const SetStorage<T>* storage_;

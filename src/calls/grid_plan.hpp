@@ -7,7 +7,7 @@
 #include <memory>
 
 #include <simdbezier/curves.hpp>
-#include <simdbezier/samples.hpp>
+#include <simdbezier/patch_set.hpp>
 
 #include "src/tables/kernel_table.hpp"
 

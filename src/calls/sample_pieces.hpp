@@ -6,7 +6,7 @@
 #include <span>
 
 #include <simdbezier/options.hpp>
-#include <simdbezier/samples.hpp>
+#include <simdbezier/patch_set.hpp>
 
 #include "src/tables/kernel_table.hpp"
 

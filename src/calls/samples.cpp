@@ -3,7 +3,7 @@
 #include <limits>
 
 #include <simdbezier/curves.hpp>
-#include <simdbezier/samples.hpp>
+#include <simdbezier/patch_set.hpp>
 
 #include "src/calls/call.hpp"
 #include "src/calls/counted_grids.hpp"

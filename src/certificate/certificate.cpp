@@ -1,5 +1,5 @@
-// See error_bounds.hpp. Computed from the packed values on demand: they are all it depends on.
-#include <simdbezier/error_bounds.hpp>
+// See bounds.hpp. Computed from the packed values on demand: they are all it depends on.
+#include <simdbezier/bounds.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-// See error_bounds.hpp. Computed from the packed values on demand: they are all it depends on.
+// See bounds.hpp. Computed from the packed values on demand: they are all it depends on.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <simdbezier/error_bounds.hpp>
+#include <simdbezier/bounds.hpp>
 
 #include "src/certificate/certificate_sums.hpp"
 #include "src/certificate/merged_points.hpp"

@@ -1,8 +1,8 @@
-// See error_bounds.hpp.
+// See bounds.hpp.
 #include <algorithm>
 #include <limits>
 
-#include <simdbezier/error_bounds.hpp>
+#include <simdbezier/bounds.hpp>
 
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"

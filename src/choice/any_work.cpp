@@ -5,7 +5,7 @@
 
 namespace simdbezier::detail {
 
-Status run_work(const AnyWork& work, const Options& options) noexcept {
+Status run_work(const AnyWork& work, const RunOptions& options) noexcept {
   return run_blocks_here(work.units, work.duration, options, work.scratch_bytes, work);
 }
 

@@ -35,6 +35,6 @@ struct AnyWork {
 
 /// Runs it in the floating-point environment of make_call(). Returns ok | out_of_memory, before
 /// anything is written.
-[[nodiscard]] Status run_work(const AnyWork& work, const Options& options) noexcept;
+[[nodiscard]] Status run_work(const AnyWork& work, const RunOptions& options) noexcept;
 
 } // namespace simdbezier::detail

@@ -172,7 +172,7 @@ Status run_and_decide(std::span<const WayOfCall> ways, Way known, const CallKind
     destination_notes().add_measurement(kind, way->way);
   }
   all.run(*way, items - all.done());
-  report(all.executed(), options);
+  note_executed(all.executed());
   return Status::ok;
 }
 

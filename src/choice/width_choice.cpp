@@ -96,7 +96,7 @@ Status run_and_choose(const AnyWork& widest, const AnyWork& narrower, const Call
       patch > kLargestPatch ? Width::widest : BothWidths(widest, narrower, scratch).measure(block);
   width_notes().decide(kind, width);
   const AnyWork& work = width == Width::narrower ? narrower : widest;
-  report(run_units(0, work.units, threads, scratch, work), options);
+  note_executed(run_units(0, work.units, threads, scratch, work));
   return Status::ok;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <simdbezier/patch_edge.hpp>
+#include <simdbezier/control_nets.hpp>
 
 #include "src/exact/curve_like.hpp"
 #include "src/exact/exact_points.hpp"

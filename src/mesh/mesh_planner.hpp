@@ -36,17 +36,22 @@ public:
 
 private:
   [[nodiscard]] bool is_uniform() const { return options_.nu != 0 || options_.nv != 0; }
+  /// The number of a patch of the set among those given.
+  [[nodiscard]] std::size_t given_patch(std::size_t patch) const {
+    return plan_.patches.empty() ? patch : plan_.patches[patch];
+  }
   /// Names the patch by its number among those given.
   Status fault_at(std::size_t patch, Status status) {
-    plan_.fault_patch = patch < plan_.patches.size() ? plan_.patches[patch] : patch;
+    plan_.report.item = patch < plan_.patches.size() ? plan_.patches[patch] : patch;
     return status;
   }
 
   Status check() {
     const auto is_given = [&](double value) { return value != kUnlimited; };
-    const bool toleranced = is_given(options_.tolerance) || is_given(options_.relative_tolerance) ||
-                            is_given(options_.pixels) || is_given(options_.longest_edge) ||
-                            is_given(options_.normal_angle) || !options_.tolerances.empty();
+    const RateOptions& rates = options_.rates;
+    const bool toleranced = is_given(rates.tolerance) || is_given(options_.relative_tolerance) ||
+                            is_given(options_.pixels) || is_given(rates.longest_edge) ||
+                            is_given(rates.normal_degrees) || !rates.tolerances.empty();
     if (is_uniform() && (toleranced || options_.nu < 2 || options_.nv < 2)) {
       return Status::bad_grid;
     }
@@ -57,11 +62,8 @@ private:
   }
 
   [[nodiscard]] TopologyOptions topology_options() const {
-    TopologyOptions how;
-    how.flip = options_.flip;
-    how.point_size = options_.point_size;
-    how.snap = std::max(options_.snap, split_.snap);
-    how.threads = options_.threads;
+    TopologyOptions how = options_.topology;
+    how.snap = std::max(how.snap, split_.snap);
     return how;
   }
 
@@ -70,7 +72,9 @@ private:
     if (!options_.drop_repeated) {
       return Status::ok;
     }
-    Status status = find_topology(nets_, plan_.topology, topology_options());
+    TopologyOptions how = topology_options();
+    how.orient = false; // of patches that stay
+    Status status = find_topology(nets_, plan_.topology, how, options_);
     plan_.counts = plan_.topology.counts();
     if (status && plan_.counts.repeated_patches > 0) {
       status = find_distinct_nets(nets_, plan_.topology, distinct_);
@@ -85,9 +89,8 @@ private:
       return Status::ok;
     }
     SplitOptions how;
-    how.snap = options_.snap;
-    how.threads = options_.threads;
-    const Status status = split_edges(nets_, split_, how);
+    how.snap = options_.topology.snap;
+    const Status status = split_edges(nets_, split_, how, options_);
     nets_ = status ? split_.nets : nets_;
     plan_.splits = split_.counts;
     std::vector<std::uint32_t> patches;
@@ -102,12 +105,10 @@ private:
 
   Status join() {
     const bool left_out = options_.drop_repeated && plan_.counts.repeated_patches > 0;
-    if (options_.drop_repeated && !left_out && !options_.orient && !options_.split_edges) {
+    if (options_.drop_repeated && !left_out && !options_.topology.orient && !options_.split_edges) {
       return Status::ok; // all is known
     }
-    TopologyOptions how = topology_options();
-    how.orient = options_.orient;
-    const Status status = find_topology(nets_, plan_.topology, how);
+    const Status status = find_topology(nets_, plan_.topology, topology_options(), options_);
     if (!options_.drop_repeated || options_.split_edges) {
       const std::size_t repeated = plan_.counts.repeated_patches;
       plan_.counts = plan_.topology.counts();
@@ -122,11 +123,18 @@ private:
     how.local_origin = options_.local_origin;
     how.threads = options_.threads;
     how.isa = options_.isa;
-    const PackReport report = pack(nets_, plan_.set, how);
-    return report ? Status(Status::ok) : fault_at(report.patch, report.status);
+    const Report report = pack(nets_, plan_.set, how);
+    return report ? Status(Status::ok) : fault_at(report.item, report.status);
   }
 
   Status measure() {
+    const std::size_t given = patches_of(given_);
+    for (const std::span<const double> values :
+         {options_.rates.tolerances, options_.rates.errors}) {
+      if (!values.empty() && values.size() != given) {
+        return Status::bad_rates;
+      }
+    }
     PointBox box;
     for (const ControlNets<S>& nets : given_) {
       for (std::size_t patch = 0; patch < nets.count; ++patch) {
@@ -135,47 +143,43 @@ private:
     }
     plan_.diagonal = box.diagonal();
     const std::size_t patches = plan_.set.size();
-    plan_.nu.resize(patches);
-    plan_.nv.resize(patches);
+    plan_.cells_u.resize(patches);
+    plan_.cells_v.resize(patches);
     plan_.deviations.resize(patches);
     diagonals_.resize(patches);
     errors_.resize(patches);
-    const Status status =
-        position_errors(plan_.set, errors_, {.threads = options_.threads, .isa = options_.isa});
+    const Status status = position_errors(plan_.set, errors_, options_);
     for (std::size_t patch = 0; patch < plan_.pieces.size(); ++patch) {
       errors_[patch] += plan_.pieces[patch].error;
     }
-    for (std::size_t patch = 0; patch < patches && !given_errors_.empty(); ++patch) {
-      errors_[patch] += given_errors_[plan_.patches.empty() ? patch : plan_.patches[patch]];
+    for (const std::span<const double> known : {given_errors_, options_.rates.errors}) {
+      for (std::size_t patch = 0; patch < patches && !known.empty(); ++patch) {
+        errors_[patch] += known[given_patch(patch)];
+      }
     }
     return status;
   }
 
   Status choose() {
-    const CertifiedRates rates{plan_.nu, plan_.nv, diagonals_, plan_.deviations};
-    RateReport report;
+    const CertifiedRates rates{plan_.cells_u, plan_.cells_v, diagonals_, plan_.deviations};
+    Report report;
     if (is_uniform()) {
-      std::fill(plan_.nu.begin(), plan_.nu.end(), options_.nu - 1);
-      std::fill(plan_.nv.begin(), plan_.nv.end(), options_.nv - 1);
+      std::fill(plan_.cells_u.begin(), plan_.cells_u.end(), options_.nu - 1);
+      std::fill(plan_.cells_v.begin(), plan_.cells_v.end(), options_.nv - 1);
       std::size_t raised = 0;
-      report.status = separate_vertices(plan_.topology, plan_.nu, plan_.nv, raised);
-      report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates,
-                                         {.threads = options_.threads, .isa = options_.isa})
-                      : report;
+      report.status = separate_vertices(plan_.topology, plan_.cells_u, plan_.cells_v, raised);
+      report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates, options_) : report;
     } else {
-      RateOptions how;
+      RateOptions how = options_.rates;
       how.errors = errors_;
-      how.longest_edge = options_.longest_edge;
-      how.normal_angle = options_.normal_angle;
-      how.threads = options_.threads;
-      how.isa = options_.isa;
+      how.keep = 0;
       if (const Status status = find_tolerances(how); !status) {
         return status;
       }
-      report = choose_rates<S>(nets_, plan_.topology, how, rates);
+      report = choose_rates<S>(nets_, plan_.topology, how, rates, options_);
     }
     if (!report) {
-      return fault_at(report.patch, report.status);
+      return fault_at(report.item, report.status);
     }
     plan_.deviation = plan_.deviations.empty()
                           ? 0
@@ -188,14 +192,10 @@ private:
     // A share of a diagonal of 0 would be a tolerance of 0, which no mesh could keep.
     const double relative =
         plan_.diagonal > 0 ? options_.relative_tolerance * plan_.diagonal : kUnlimited;
-    how.tolerance = std::min(options_.tolerance, relative);
+    how.tolerance = std::min(how.tolerance, relative);
     const bool pixels = std::isfinite(options_.pixels);
-    if (options_.tolerances.empty() && !pixels) {
+    if (how.tolerances.empty() && !pixels) {
       return Status::ok;
-    }
-    const std::size_t given = patches_of(given_);
-    if (!options_.tolerances.empty() && options_.tolerances.size() != given) {
-      return Status::bad_rates;
     }
     tolerances_.assign(plan_.set.size(), kUnlimited);
     if (pixels) {
@@ -205,34 +205,28 @@ private:
         return status;
       }
     }
-    for (std::size_t patch = 0; patch < tolerances_.size(); ++patch) {
-      double& tolerance = tolerances_[patch];
-      tolerance = std::min(tolerance, how.tolerance);
-      if (!options_.tolerances.empty()) {
-        const double own =
-            options_.tolerances[plan_.patches.empty() ? patch : plan_.patches[patch]];
-        tolerance = own >= tolerance ? tolerance : own; // nan is kept, and refused
-      }
+    for (std::size_t patch = 0; patch < tolerances_.size() && !how.tolerances.empty(); ++patch) {
+      const double own = how.tolerances[given_patch(patch)];
+      tolerances_[patch] = own >= tolerances_[patch] ? tolerances_[patch] : own; // nan is refused
     }
     how.tolerances = tolerances_;
     return Status::ok;
   }
 
   Status lay_out() {
-    Status status = lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_}, plan_.layout,
-                                 {.threads = options_.threads});
-    if (status && options_.crease_angle != kUnlimited) {
-      Options how;
-      how.threads = options_.threads;
-      how.isa = options_.isa;
-      status = split_creases(plan_.set, plan_.layout, options_.crease_angle, plan_.layout, how);
+    Status status = lay_out_mesh(plan_.topology, {plan_.cells_u, plan_.cells_v, diagonals_},
+                                 plan_.layout, options_);
+    const double degrees = options_.share_vertices ? options_.crease_degrees : 0;
+    if (status && degrees != kUnlimited) {
+      status = split_creases(plan_.set, plan_.layout, degrees, plan_.layout,
+                             {.threads = options_.threads, .isa = options_.isa});
     }
     return status && options_.parameters ? split_parameters(plan_.layout, plan_.layout) : status;
   }
 
   std::span<const ControlNets<S>> given_;
   std::span<const ControlNets<S>> nets_; ///< without what is left out
-  std::span<const double> given_errors_;
+  std::span<const double> given_errors_; ///< in addition to those among the options
   SplitNets<S> split_;
   DistinctNets<S> distinct_;
   const MeshOptions& options_;

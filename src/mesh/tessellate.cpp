@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/splines.hpp>
 
 #include "src/mesh/mesh_planner.hpp"
@@ -32,13 +32,11 @@ Status evaluate_vertices(const MeshPlan<T>& plan, const MeshOptions& options, Me
     out.parameters = Vectors<T>::pairs(std::span<T>(first, 2 * vertices));
     out.patch = mesh.patches;
   }
-  Options how;
-  how.threads = options.threads;
-  how.isa = options.isa;
   if (vertices == 0) {
     return Status::ok;
   }
-  const Status status = evaluate_mesh(plan.set, plan.layout, out, how);
+  const Status status =
+      evaluate_mesh(plan.set, plan.layout, out, {.threads = options.threads, .isa = options.isa});
   for (std::size_t k = 0; k < mesh.patches.size() && !plan.pieces.empty(); ++k) {
     const PatchPiece& piece = plan.pieces[mesh.patches[k]];
     const auto [u, v] = mesh.parameters[k];
@@ -87,16 +85,16 @@ Status fill_mesh(const MeshPlan<T>& plan, const MeshOptions& options, std::size_
 template <typename T, typename Make>
 MeshPlan<T> planned(const Make& make) noexcept {
   const DefaultFpEnvironment environment;
-  return attempt(&MeshPlan<T>::fault_patch, make);
+  return attempt<MeshPlan<T>>(make);
 }
 template <typename T, typename Make>
 Mesh<T> tessellated(const MeshOptions& options, const Make& make) noexcept {
   const DefaultFpEnvironment environment; // comparisons would lose tiny deviations
-  return attempt(&Mesh<T>::fault_patch, [&](Mesh<T>& mesh) {
+  return attempt<Mesh<T>>([&](Mesh<T>& mesh) {
     std::size_t given = 0;
     const MeshPlan<T> plan = make(given);
-    mesh.fault_patch = plan.fault_patch;
-    return plan ? fill_mesh(plan, options, given, mesh) : plan.status;
+    mesh.report = plan.report;
+    return plan ? fill_mesh(plan, options, given, mesh) : plan.report.status;
   });
 }
 
@@ -104,7 +102,7 @@ Mesh<T> tessellated(const MeshOptions& options, const Make& make) noexcept {
 template <typename S>
 class CutSplines {
 public:
-  SplineReport cut(std::span<const SplineSurface<S>> surfaces, const Options& how) {
+  Report cut(std::span<const SplineSurface<S>> surfaces, const RunOptions& how) {
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k].components != 3) { // of all, before the first of them is cut
         return {Status::bad_components, k};
@@ -114,8 +112,8 @@ public:
       for (end = first + 1; end < surfaces.size() && are_alike(surfaces[first], surfaces[end]);) {
         ++end;
       }
-      if (SplineReport report = cut_alike(surfaces.subspan(first, end - first), how); !report) {
-        report.surface += first;
+      if (Report report = cut_alike(surfaces.subspan(first, end - first), how); !report) {
+        report.item += first;
         return report;
       }
     }
@@ -130,7 +128,7 @@ private:
            (a.weights == Weights::none) == (b.weights == Weights::none);
   }
 
-  SplineReport cut_alike(std::span<const SplineSurface<S>> surfaces, const Options& how) {
+  Report cut_alike(std::span<const SplineSurface<S>> surfaces, const RunOptions& how) {
     std::size_t patches = 0;
     for (const SplineSurface<S>& surface : surfaces) {
       patches += span_count(surface).patches(); // none where it is refused
@@ -142,7 +140,7 @@ private:
     values_.emplace_back(patches * static_cast<std::size_t>(std::max<std::ptrdiff_t>(
                                        out.patch_stride, 0))); // of degrees that are refused
     out.points = values_.back().data();
-    if (const SplineReport report = to_bezier(surfaces, out, {}, how); !report) {
+    if (const Report report = to_bezier(surfaces, out, {}, how); !report) {
       return report;
     }
     nets_.push_back(out);
@@ -160,9 +158,9 @@ private:
 /// given: the number of patches that the splines have.
 template <typename T, typename S>
 MeshPlan<T> planned_splines(std::span<const SplineSurface<S>> surfaces, const MeshOptions& options,
-                            SplineReport* report, std::size_t& given) noexcept {
-  SplineReport unasked;
-  SplineReport& found = report == nullptr ? unasked : *report;
+                            Report* report, std::size_t& given) noexcept {
+  Report unasked;
+  Report& found = report == nullptr ? unasked : *report;
   found = {};
   return planned<T>([&](MeshPlan<T>& plan) -> Status {
     if (surfaces.data() == nullptr && !surfaces.empty()) {
@@ -170,7 +168,7 @@ MeshPlan<T> planned_splines(std::span<const SplineSurface<S>> surfaces, const Me
       return found.status;
     }
     CutSplines<S> splines;
-    found = splines.cut(surfaces, {.threads = options.threads, .isa = options.isa});
+    found = splines.cut(surfaces, options);
     given = splines.errors().size();
     return found ? MeshPlanner<T, S>(splines.nets(), splines.errors(), options, plan).run()
                  : found.status;
@@ -197,14 +195,14 @@ Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& opti
 
 template <typename T, typename S>
 MeshPlan<T> plan_mesh(std::span<const SplineSurface<S>> surfaces, const MeshOptions& options,
-                      SplineReport* report) noexcept {
+                      Report* report) noexcept {
   std::size_t given = 0;
   return detail::planned_splines<T, S>(surfaces, options, report, given);
 }
 
 template <typename T, typename S>
 Mesh<T> tessellate(std::span<const SplineSurface<S>> surfaces, const MeshOptions& options,
-                   SplineReport* report) noexcept {
+                   Report* report) noexcept {
   return detail::tessellated<T>(options, [&](std::size_t& given) {
     return detail::planned_splines<T, S>(surfaces, options, report, given);
   });
@@ -216,9 +214,9 @@ Mesh<T> tessellate(std::span<const SplineSurface<S>> surfaces, const MeshOptions
   template SIMDBEZIER_API Mesh<T> tessellate<T, S>(std::span<const ControlNets<S>>,                \
                                                    const MeshOptions&) noexcept;                   \
   template SIMDBEZIER_API MeshPlan<T> plan_mesh<T, S>(std::span<const SplineSurface<S>>,           \
-                                                      const MeshOptions&, SplineReport*) noexcept; \
+                                                      const MeshOptions&, Report*) noexcept;       \
   template SIMDBEZIER_API Mesh<T> tessellate<T, S>(std::span<const SplineSurface<S>>,              \
-                                                   const MeshOptions&, SplineReport*) noexcept;
+                                                   const MeshOptions&, Report*) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)
 SIMDBEZIER_INSTANTIATE(float, double)
 SIMDBEZIER_INSTANTIATE(double, float)

@@ -1,5 +1,5 @@
-// See adjacency.hpp.
-#include <simdbezier/adjacency.hpp>
+// See topology.hpp.
+#include <simdbezier/topology.hpp>
 
 #include <new>
 
@@ -62,7 +62,7 @@ Status check(std::span<const ControlNets<S>> nets, const Values<EdgeLink>& edges
 
 template <typename S>
 Status find_adjacency(std::span<const ControlNets<S>> nets, Values<EdgeLink> edges,
-                      const Options& options) noexcept try {
+                      const RunOptions& options) noexcept try {
   const Status status = detail::check(nets, edges);
   if (status != Status::ok) {
     return status;
@@ -80,8 +80,8 @@ Status find_adjacency(std::span<const ControlNets<S>> nets, Values<EdgeLink> edg
 }
 
 template SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<float>>, Values<EdgeLink>,
-                                              const Options&) noexcept;
+                                              const RunOptions&) noexcept;
 template SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<double>>,
-                                              Values<EdgeLink>, const Options&) noexcept;
+                                              Values<EdgeLink>, const RunOptions&) noexcept;
 
 } // namespace simdbezier

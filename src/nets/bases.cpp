@@ -1,5 +1,5 @@
-// The calls of bases.hpp: which nets a basis takes.
-#include <simdbezier/bases.hpp>
+// The calls of nets.hpp: which nets a basis takes.
+#include <simdbezier/nets.hpp>
 
 #include "src/nets/linear_maps.hpp"
 #include "src/nets/net_call.hpp"
@@ -25,8 +25,8 @@ Status check_basis(Basis basis, const ControlNets<T>& nets, bool to_bezier) noex
 }
 
 template <typename T>
-NetReport change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Basis basis,
-                       bool to_bezier, const Options& options) noexcept {
+Report change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Basis basis,
+                    bool to_bezier, const RunOptions& options) noexcept {
   const Status status = check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v);
   if (status != Status::ok) {
     return {status};
@@ -47,26 +47,26 @@ NetReport change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Ba
 } // namespace detail
 
 template <typename T>
-NetReport to_bezier(Basis basis, const ControlNets<T>& nets,
-                    const std::type_identity_t<MutableNets<T>>& out,
-                    const Options& options) noexcept {
+Report to_bezier(Basis basis, const ControlNets<T>& nets,
+                 const std::type_identity_t<MutableNets<T>>& out,
+                 const RunOptions& options) noexcept {
   return detail::change_basis<T>(nets, out, basis, true, options);
 }
 
 template <typename T>
-NetReport from_bezier(Basis basis, const ControlNets<T>& nets,
-                      const std::type_identity_t<MutableNets<T>>& out,
-                      const Options& options) noexcept {
+Report from_bezier(Basis basis, const ControlNets<T>& nets,
+                   const std::type_identity_t<MutableNets<T>>& out,
+                   const RunOptions& options) noexcept {
   return detail::change_basis<T>(nets, out, basis, false, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API NetReport to_bezier(Basis, const ControlNets<T>&,                        \
-                                              const std::type_identity_t<MutableNets<T>>&,         \
-                                              const Options&) noexcept;                            \
-  template SIMDBEZIER_API NetReport from_bezier(Basis, const ControlNets<T>&,                      \
-                                                const std::type_identity_t<MutableNets<T>>&,       \
-                                                const Options&) noexcept;
+  template SIMDBEZIER_API Report to_bezier(Basis, const ControlNets<T>&,                           \
+                                           const std::type_identity_t<MutableNets<T>>&,            \
+                                           const RunOptions&) noexcept;                            \
+  template SIMDBEZIER_API Report from_bezier(Basis, const ControlNets<T>&,                         \
+                                             const std::type_identity_t<MutableNets<T>>&,          \
+                                             const RunOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

@@ -28,8 +28,8 @@ Status check_arrays(const ControlNets<T>& nets, const Boxes<T>& out, std::size_t
 }
 
 template <typename T>
-NetReport run_boxes(const ControlNets<T>& nets, int levels, const Boxes<T>& out,
-                    const Options& options) noexcept {
+Report run_boxes(const ControlNets<T>& nets, int levels, const Boxes<T>& out,
+                 const RunOptions& options) noexcept {
   const std::size_t row = nets.components < 0 ? 0 : static_cast<std::size_t>(nets.components);
   const Status status = check_arrays<T>(nets, out, row);
   if (status != Status::ok) {
@@ -55,20 +55,20 @@ T root_of_components(int components) noexcept {
 } // namespace detail
 
 template <typename T>
-NetReport control_boxes(const ControlNets<T>& nets, const std::type_identity_t<Boxes<T>>& out,
-                        const Options& options) noexcept {
+Report control_boxes(const ControlNets<T>& nets, const std::type_identity_t<Boxes<T>>& out,
+                     const RunOptions& options) noexcept {
   return detail::run_boxes<T>(nets, 0, out, options);
 }
 
 template <typename T>
-NetReport tight_boxes(const ControlNets<T>& nets, int levels,
-                      const std::type_identity_t<Boxes<T>>& out, const Options& options) noexcept {
+Report tight_boxes(const ControlNets<T>& nets, int levels,
+                   const std::type_identity_t<Boxes<T>>& out, const RunOptions& options) noexcept {
   return detail::run_boxes<T>(nets, levels, out, options);
 }
 
 template <typename T>
-NetReport flatness(const ControlNets<T>& nets, const std::type_identity_t<Values<T>>& out,
-                   const Options& options) noexcept {
+Report flatness(const ControlNets<T>& nets, const std::type_identity_t<Values<T>>& out,
+                const RunOptions& options) noexcept {
   Status status = detail::check_input(nets);
   if (status) {
     status = detail::check_array(nets, out, nets.count);
@@ -83,12 +83,13 @@ NetReport flatness(const ControlNets<T>& nets, const std::type_identity_t<Values
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API NetReport control_boxes(                                                 \
-      const ControlNets<T>&, const std::type_identity_t<Boxes<T>>&, const Options&) noexcept;      \
-  template SIMDBEZIER_API NetReport tight_boxes(                                                   \
-      const ControlNets<T>&, int, const std::type_identity_t<Boxes<T>>&, const Options&) noexcept; \
-  template SIMDBEZIER_API NetReport flatness(                                                      \
-      const ControlNets<T>&, const std::type_identity_t<Values<T>>&, const Options&) noexcept;
+  template SIMDBEZIER_API Report control_boxes(                                                    \
+      const ControlNets<T>&, const std::type_identity_t<Boxes<T>>&, const RunOptions&) noexcept;   \
+  template SIMDBEZIER_API Report tight_boxes(const ControlNets<T>&, int,                           \
+                                             const std::type_identity_t<Boxes<T>>&,                \
+                                             const RunOptions&) noexcept;                          \
+  template SIMDBEZIER_API Report flatness(                                                         \
+      const ControlNets<T>&, const std::type_identity_t<Values<T>>&, const RunOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

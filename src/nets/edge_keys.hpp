@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/patch_edge.hpp>
 
 #include "src/nets/edge_values.hpp"
 #include "src/storage/net_shape.hpp"

@@ -8,7 +8,6 @@
 #include <span>
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/patch_edge.hpp>
 
 #include "src/runtime/fresh_vector.hpp"
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/patch_edge.hpp>
 
 #include "src/nets/net_views.hpp"
 #include "src/storage/one_point.hpp"

@@ -1,7 +1,7 @@
 // The matrices behind degree elevation, derivatives and changes of basis, from exact integers.
 #pragma once
 
-#include <simdbezier/bases.hpp>
+#include <simdbezier/nets.hpp>
 
 #include "src/tables/net_table.hpp"
 

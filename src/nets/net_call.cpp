@@ -46,7 +46,7 @@ bool any_not_finite(const S* values, std::size_t count) noexcept {
 }
 
 template <typename S>
-NetReport fault_of(const ControlNets<S>& nets, std::size_t patch, bool signed_weights) noexcept {
+Report fault_of(const ControlNets<S>& nets, std::size_t patch, bool signed_weights) noexcept {
   const NetView<const S> view = view_of(nets);
   const S* const net = view.points + static_cast<std::ptrdiff_t>(patch) * view.patch_stride;
   int k = 0;
@@ -212,7 +212,7 @@ Status check_nets(const ControlNets<S>& nets, std::initializer_list<const Mutabl
 }
 
 template <typename S>
-NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weights) noexcept {
+Report find_fault(const ControlNets<S>& nets, int threads, bool signed_weights) noexcept {
   const NetView<const S> view = view_of(nets);
   const bool check_weights = nets.weights != Weights::none && !signed_weights;
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -227,7 +227,7 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
     }
   };
   divide_work(lane_groups(nets.count), 10 * kMaxLanes, threads, body);
-  NetReport report;
+  Report report;
   if (first != kNone) {
     in_default_environment( // weights may be denormal
         [&]() noexcept { report = fault_of(nets, first, signed_weights); });
@@ -243,7 +243,7 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
   template Status check_output(const MutableNets<S>&, const ControlNets<S>&, int, int) noexcept;   \
   template Status check_apart(const ControlNets<S>&, const ControlNets<S>&) noexcept;              \
   template Status check_apart(const ControlNets<S>&, const MemoryRange&) noexcept;                 \
-  template NetReport find_fault(const ControlNets<S>&, int, bool) noexcept;                        \
+  template Report find_fault(const ControlNets<S>&, int, bool) noexcept;                           \
   template Status check_nets(const ControlNets<S>&, std::initializer_list<const MutableNets<S>*>,  \
                              int, int) noexcept;
 SIMDBEZIER_INSTANTIATE(float)

@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include <simdbezier/nets.hpp>
-#include <simdbezier/vectors.hpp>
+#include <simdbezier/outputs.hpp>
 
 #include "src/output/memory_range.hpp"
 #include "src/runtime/batch.hpp"
@@ -21,7 +21,7 @@ template <typename S>
 NetView<S> view_of(const MutableNets<S>& nets) noexcept;
 
 /// The report where no control point is at fault but a parameter, or the presence of weights.
-constexpr NetReport argument_fault(Status status) noexcept { return {status, 0, -1, 0}; }
+constexpr Report argument_fault(Status status) noexcept { return {status, 0, -1, 0}; }
 
 /// Whether a view can be read: ok | bad_degree | bad_components | null_input | bad_stride |
 /// size_overflow | input_too_small. Overlapping nets are allowed, a point that repeats itself is
@@ -76,7 +76,7 @@ Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcep
 /// The first value that is not finite, or weight that is not positive, in order of patches, then
 /// control points, then components. With signed_weights weights may be anything finite.
 template <typename S>
-NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weights = false) noexcept;
+Report find_fault(const ControlNets<S>& nets, int threads, bool signed_weights = false) noexcept;
 
 /// ok | null_output | output_too_small | overlapping_outputs, of an array that `count` results of
 /// nets go to.
@@ -99,7 +99,7 @@ Status check_nets(const ControlNets<S>& nets, std::initializer_list<const Mutabl
 /// Runs a kernel of one of the tables of nets on all patches; `values` of a group are scratch.
 template <typename Table, typename Task>
 Status run_net_kernel(NetKernel<Task> Table::*kernel, const Task& task, std::size_t count,
-                      std::size_t values, const Options& options) noexcept {
+                      std::size_t values, const RunOptions& options) noexcept {
   Isa isa = Isa::automatic;
   const Status runs = resolve_isa(options.isa, isa);
   if (runs != Status::ok) {
@@ -115,15 +115,15 @@ Status run_net_kernel(NetKernel<Task> Table::*kernel, const Task& task, std::siz
 
 /// The way of all operations on nets whose views have been checked: find faults, then compute.
 template <typename T, typename Task>
-NetReport compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetOperationTable<T>::*kernel,
-                       const Task& task, std::size_t values, const Options& options,
-                       bool signed_weights = false) noexcept {
+Report compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetOperationTable<T>::*kernel,
+                    const Task& task, std::size_t values, const RunOptions& options,
+                    bool signed_weights = false) noexcept {
   Isa isa = Isa::automatic;
   const Status runs = resolve_isa(options.isa, isa);
   if (runs != Status::ok) {
     return {runs};
   }
-  const NetReport checked = find_fault(nets, options.threads, signed_weights);
+  const Report checked = find_fault(nets, options.threads, signed_weights);
   if (!checked) {
     return checked;
   }

@@ -33,9 +33,8 @@ std::size_t net_values(const ControlNets<T>& nets) noexcept {
 
 /// All cuts; outputs that are not wanted are null.
 template <typename T>
-NetReport run_split(const ControlNets<T>& nets, const UnitParameter<T>* u,
-                    const UnitParameter<T>* v, const MutableNets<T>* const (&out)[4],
-                    const Options& options) noexcept {
+Report run_split(const ControlNets<T>& nets, const UnitParameter<T>* u, const UnitParameter<T>* v,
+                 const MutableNets<T>* const (&out)[4], const RunOptions& options) noexcept {
   SplitTask<T> task{};
   task.in_u = u != nullptr;
   task.in_v = v != nullptr;
@@ -75,8 +74,8 @@ Support support_between(int degree, const UnitParameter<T>& from,
 }
 
 template <typename T>
-NetReport run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const LinearMap& u,
-                  const LinearMap& v, const Options& options) noexcept {
+Report run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const LinearMap& u,
+               const LinearMap& v, const RunOptions& options) noexcept {
   const MapTask<T> task{view_of(nets), view_of(out), &u, &v, support_of(u), support_of(v)};
   NetShape most = shape_of(nets);
   most.degree_u = std::max(most.degree_u, out.degree_u);
@@ -87,14 +86,14 @@ NetReport run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const L
 /// Copies values, without any arithmetic, in the order of `nets`, a view of `original` in another
 /// order.
 template <typename T>
-NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
-                   const MutableNets<T>& out, const Options& options) noexcept {
+Report run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
+                const MutableNets<T>& out, const RunOptions& options) noexcept {
   Isa isa = Isa::automatic;
   const Status runs = resolve_isa(options.isa, isa);
   if (runs != Status::ok) {
     return {runs};
   }
-  const NetReport checked = find_fault(original, options.threads);
+  const Report checked = find_fault(original, options.threads);
   if (!checked) {
     return checked;
   }
@@ -124,9 +123,9 @@ NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
 
 /// Cuts nets in two, in u or in v, whichever is given.
 template <typename T>
-NetReport run_halves(const ControlNets<T>& nets, const UnitParameter<T>* u,
-                     const UnitParameter<T>* v, const MutableNets<T>& low,
-                     const MutableNets<T>& high, const Options& options) noexcept {
+Report run_halves(const ControlNets<T>& nets, const UnitParameter<T>* u, const UnitParameter<T>* v,
+                  const MutableNets<T>& low, const MutableNets<T>& high,
+                  const RunOptions& options) noexcept {
   const Status status = check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
   if (status != Status::ok) {
     return {status};
@@ -144,16 +143,16 @@ Status check_result(const ControlNets<T>& nets, const MutableNets<T>& out, int d
 
 /// The nets as `view` sees them, which is with these degrees.
 template <typename T, typename View>
-NetReport run_view(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
-                   int degree_v, View view, const Options& options) noexcept {
+Report run_view(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u, int degree_v,
+                View view, const RunOptions& options) noexcept {
   const Status status = check_result<T>(nets, out, degree_u, degree_v);
-  return status != Status::ok ? NetReport{status} : run_copy<T>(nets, view(nets), out, options);
+  return status != Status::ok ? Report{status} : run_copy<T>(nets, view(nets), out, options);
 }
 
 /// Derivatives of these orders, 0 or 1; lines keep degree 1.
 template <typename T>
-NetReport run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int order_u,
-                        int order_v, const Options& options) noexcept {
+Report run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int order_u,
+                     int order_v, const RunOptions& options) noexcept {
   const Status status = check_result<T>(nets, out, std::max(nets.degree_u - order_u, 1),
                                         std::max(nets.degree_v - order_v, 1));
   if (status != Status::ok) {
@@ -172,25 +171,25 @@ NetReport run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, i
 } // namespace detail
 
 template <typename T>
-NetReport split_u(const ControlNets<T>& nets, AtParameter<T> u,
-                  const std::type_identity_t<MutableNets<T>>& low,
-                  const std::type_identity_t<MutableNets<T>>& high,
-                  const Options& options) noexcept {
+Report split_u(const ControlNets<T>& nets, AtParameter<T> u,
+               const std::type_identity_t<MutableNets<T>>& low,
+               const std::type_identity_t<MutableNets<T>>& high,
+               const RunOptions& options) noexcept {
   return detail::run_halves<T>(nets, &u, nullptr, low, high, options);
 }
 
 template <typename T>
-NetReport split_v(const ControlNets<T>& nets, AtParameter<T> v,
-                  const std::type_identity_t<MutableNets<T>>& low,
-                  const std::type_identity_t<MutableNets<T>>& high,
-                  const Options& options) noexcept {
+Report split_v(const ControlNets<T>& nets, AtParameter<T> v,
+               const std::type_identity_t<MutableNets<T>>& low,
+               const std::type_identity_t<MutableNets<T>>& high,
+               const RunOptions& options) noexcept {
   return detail::run_halves<T>(nets, nullptr, &v, low, high, options);
 }
 
 template <typename T>
-NetReport split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
-                const std::array<std::type_identity_t<MutableNets<T>>, 4>& out,
-                const Options& options) noexcept {
+Report split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
+             const std::array<std::type_identity_t<MutableNets<T>>, 4>& out,
+             const RunOptions& options) noexcept {
   const Status status = detail::check_nets<T>(nets, {&out[0], &out[1], &out[2], &out[3]},
                                               nets.degree_u, nets.degree_v);
   if (status != Status::ok) {
@@ -200,9 +199,9 @@ NetReport split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
 }
 
 template <typename T>
-NetReport segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatch<T>>& piece,
-                  const std::type_identity_t<MutableNets<T>>& out,
-                  const Options& options) noexcept {
+Report segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatch<T>>& piece,
+               const std::type_identity_t<MutableNets<T>>& out,
+               const RunOptions& options) noexcept {
   const Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
   if (status != Status::ok) {
     return {status};
@@ -226,8 +225,8 @@ NetReport segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatc
 }
 
 template <typename T>
-NetReport elevate(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
-                  const Options& options) noexcept {
+Report elevate(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+               const RunOptions& options) noexcept {
   Status status = detail::check_input(nets);
   const bool rises = out.degree_u >= nets.degree_u && out.degree_u <= kMostDegree &&
                      out.degree_v >= nets.degree_v && out.degree_v <= kMostDegree;
@@ -243,52 +242,52 @@ NetReport elevate(const ControlNets<T>& nets, const std::type_identity_t<Mutable
 }
 
 template <typename T>
-NetReport hodograph_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
-                      const Options& options) noexcept {
+Report hodograph_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                   const RunOptions& options) noexcept {
   return detail::run_hodograph<T>(nets, out, 1, 0, options);
 }
 
 template <typename T>
-NetReport hodograph_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
-                      const Options& options) noexcept {
+Report hodograph_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                   const RunOptions& options) noexcept {
   return detail::run_hodograph<T>(nets, out, 0, 1, options);
 }
 
 template <typename T>
-NetReport reverse_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
-                    const Options& options) noexcept {
+Report reverse_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                 const RunOptions& options) noexcept {
   return detail::run_view<T>(nets, out, nets.degree_u, nets.degree_v, reversed_u<T>, options);
 }
 
 template <typename T>
-NetReport reverse_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
-                    const Options& options) noexcept {
+Report reverse_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                 const RunOptions& options) noexcept {
   return detail::run_view<T>(nets, out, nets.degree_u, nets.degree_v, reversed_v<T>, options);
 }
 
 template <typename T>
-NetReport transpose(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
-                    const Options& options) noexcept {
+Report transpose(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                 const RunOptions& options) noexcept {
   return detail::run_view<T>(nets, out, nets.degree_v, nets.degree_u, transposed<T>, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE_MAP(function, T)                                                    \
-  template SIMDBEZIER_API NetReport function(const ControlNets<T>&,                                \
-                                             const std::type_identity_t<MutableNets<T>>&,          \
-                                             const Options&) noexcept;
+  template SIMDBEZIER_API Report function(const ControlNets<T>&,                                   \
+                                          const std::type_identity_t<MutableNets<T>>&,             \
+                                          const RunOptions&) noexcept;
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API NetReport split_u(                                                       \
+  template SIMDBEZIER_API Report split_u(                                                          \
       const ControlNets<T>&, AtParameter<T>, const std::type_identity_t<MutableNets<T>>&,          \
-      const std::type_identity_t<MutableNets<T>>&, const Options&) noexcept;                       \
-  template SIMDBEZIER_API NetReport split_v(                                                       \
+      const std::type_identity_t<MutableNets<T>>&, const RunOptions&) noexcept;                    \
+  template SIMDBEZIER_API Report split_v(                                                          \
       const ControlNets<T>&, AtParameter<T>, const std::type_identity_t<MutableNets<T>>&,          \
-      const std::type_identity_t<MutableNets<T>>&, const Options&) noexcept;                       \
-  template SIMDBEZIER_API NetReport split(                                                         \
-      const ControlNets<T>&, AtParameter<T>, AtParameter<T>,                                       \
-      const std::array<std::type_identity_t<MutableNets<T>>, 4>&, const Options&) noexcept;        \
-  template SIMDBEZIER_API NetReport segment(                                                       \
+      const std::type_identity_t<MutableNets<T>>&, const RunOptions&) noexcept;                    \
+  template SIMDBEZIER_API Report split(const ControlNets<T>&, AtParameter<T>, AtParameter<T>,      \
+                                       const std::array<std::type_identity_t<MutableNets<T>>, 4>&, \
+                                       const RunOptions&) noexcept;                                \
+  template SIMDBEZIER_API Report segment(                                                          \
       const ControlNets<T>&, const std::type_identity_t<SubPatch<T>>&,                             \
-      const std::type_identity_t<MutableNets<T>>&, const Options&) noexcept;                       \
+      const std::type_identity_t<MutableNets<T>>&, const RunOptions&) noexcept;                    \
   SIMDBEZIER_INSTANTIATE_MAP(elevate, T)                                                           \
   SIMDBEZIER_INSTANTIATE_MAP(hodograph_u, T)                                                       \
   SIMDBEZIER_INSTANTIATE_MAP(hodograph_v, T)                                                       \

@@ -1,5 +1,5 @@
-// Keys of corners and edges; see mesh_parts.hpp.
-#include <simdbezier/mesh_parts.hpp>
+// Keys of corners and edges; see mesh_layout.hpp.
+#include <simdbezier/mesh_layout.hpp>
 
 #include <new>
 
@@ -57,7 +57,7 @@ void find_keys(const NetViews<S>& views, const ControlNets<S>& nets, std::size_t
 
 template <typename S>
 Status find_patch_keys(std::span<const ControlNets<S>> nets, std::span<PatchKeys> keys,
-                       const Options& options) noexcept try {
+                       const RunOptions& options) noexcept try {
   if (const Status status = detail::check_views(nets); !status) {
     return status;
   }
@@ -83,8 +83,8 @@ Status find_patch_keys(std::span<const ControlNets<S>> nets, std::span<PatchKeys
 }
 
 template SIMDBEZIER_API Status find_patch_keys(std::span<const ControlNets<float>>,
-                                               std::span<PatchKeys>, const Options&) noexcept;
+                                               std::span<PatchKeys>, const RunOptions&) noexcept;
 template SIMDBEZIER_API Status find_patch_keys(std::span<const ControlNets<double>>,
-                                               std::span<PatchKeys>, const Options&) noexcept;
+                                               std::span<PatchKeys>, const RunOptions&) noexcept;
 
 } // namespace simdbezier

@@ -1,7 +1,7 @@
 // Whether control polygons can be read.
 #pragma once
 
-#include <simdbezier/control_curves.hpp>
+#include <simdbezier/control_nets.hpp>
 #include <simdbezier/status.hpp>
 
 #include "src/nets/net_places.hpp"

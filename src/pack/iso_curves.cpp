@@ -6,7 +6,7 @@
 #include <memory>
 #include <new>
 
-#include <simdbezier/iso_curves.hpp>
+#include <simdbezier/curves.hpp>
 
 #include "src/nets/iso_points.hpp"
 #include "src/nets/net_call.hpp"
@@ -17,11 +17,11 @@ namespace {
 
 /// What is wrong with the nets as a whole, or with the parameter.
 template <typename S>
-PackReport check_arguments(const ControlNets<S>& nets, double t) noexcept {
+Report check_arguments(const ControlNets<S>& nets, double t) noexcept {
   if (const Status usable = check_input(nets); !usable) {
     return {usable};
   }
-  return std::isfinite(t) ? PackReport{} : argument_fault(Status::non_finite_input);
+  return std::isfinite(t) ? Report{} : argument_fault(Status::non_finite_input);
 }
 
 template <typename F>
@@ -36,8 +36,8 @@ void for_patches(std::size_t count, int threads, const F& f) {
 
 /// Nets are read twice, so that nothing is written where one of them is at fault.
 template <typename S>
-PackReport form_all(const IsoTask<S>& task, double* points, int threads) {
-  const PackReport checked = find_fault(task.nets, threads);
+Report form_all(const IsoTask<S>& task, double* points, int threads) {
+  const Report checked = find_fault(task.nets, threads);
   if (checked) {
     for_patches(task.nets.count, threads, [&](std::size_t patch) {
       form_curve(task, patch, points + patch * task.curve_values());
@@ -54,9 +54,9 @@ bool count_bytes(const IsoTask<S>& task, std::size_t count, std::size_t& bytes) 
 }
 
 template <typename S>
-PackReport iso_points(const ControlNets<S>& nets, Across direction, double t,
-                      const Values<double>& points, const Options& options) {
-  if (const PackReport report = check_arguments(nets, t); !report) {
+Report iso_points(const ControlNets<S>& nets, Across direction, double t,
+                  const Values<double>& points, const RunOptions& options) {
+  if (const Report report = check_arguments(nets, t); !report) {
     return report;
   }
   const IsoTask<S> task(nets, direction, t);
@@ -65,13 +65,13 @@ PackReport iso_points(const ControlNets<S>& nets, Across direction, double t,
     return {Status::size_overflow};
   }
   const Status usable = check_array(nets, points, nets.count * task.curve_values());
-  return usable ? form_all(task, points.first, options.threads) : PackReport{usable};
+  return usable ? form_all(task, points.first, options.threads) : Report{usable};
 }
 
 /// Curves like the task's, whose points form(points) writes, as a set.
 template <typename T, typename S, typename Form>
-PackReport pack_formed(const IsoTask<S>& task, std::size_t count, const Form& form,
-                       CurveSet<T>& curves, const PackOptions& options) {
+Report pack_formed(const IsoTask<S>& task, std::size_t count, const Form& form, CurveSet<T>& curves,
+                   const PackOptions& options) {
   std::size_t bytes = 0;
   if (!count_bytes(task, count, bytes)) {
     return {Status::size_overflow};
@@ -80,7 +80,7 @@ PackReport pack_formed(const IsoTask<S>& task, std::size_t count, const Form& fo
   if (points == nullptr) {
     return {Status::out_of_memory};
   }
-  if (const PackReport report = form(points.get()); !report) {
+  if (const Report report = form(points.get()); !report) {
     return report;
   }
   return pack(ControlCurves<double>::packed(points.get(), count, task.curve_degree,
@@ -89,9 +89,9 @@ PackReport pack_formed(const IsoTask<S>& task, std::size_t count, const Form& fo
 }
 
 template <typename T, typename S>
-PackReport iso_of_nets(const ControlNets<S>& nets, Across direction, double t, CurveSet<T>& curves,
-                       const PackOptions& options) {
-  if (const PackReport report = check_arguments(nets, t); !report) {
+Report iso_of_nets(const ControlNets<S>& nets, Across direction, double t, CurveSet<T>& curves,
+                   const PackOptions& options) {
+  if (const Report report = check_arguments(nets, t); !report) {
     return report;
   }
   const IsoTask<S> task(nets, direction, t);
@@ -102,8 +102,8 @@ PackReport iso_of_nets(const ControlNets<S>& nets, Across direction, double t, C
 /// The nets that a set keeps, in the type S in which they were given. They have one shape; weights
 /// of both forms make two buckets.
 template <typename T, typename S>
-PackReport iso_of_given(const SetStorage<T>& set, Across direction, double t, CurveSet<T>& curves,
-                        const PackOptions& options) {
+Report iso_of_given(const SetStorage<T>& set, Across direction, double t, CurveSet<T>& curves,
+                    const PackOptions& options) {
   const PatchStorage<T>& front = set.buckets.front();
   const PatchStorage<T>& back = set.buckets.back();
   if (set.buckets.size() > 2 || !(front.shape == back.shape)) {
@@ -118,14 +118,14 @@ PackReport iso_of_given(const SetStorage<T>& set, Across direction, double t, Cu
       const PatchPlace place = set.place(patch);
       form_curve(tasks[place.bucket], place.index, points + patch * tasks[0].curve_values());
     });
-    return PackReport{};
+    return Report{};
   };
   return pack_formed(tasks[0], set.count, form, curves, options);
 }
 
 template <typename T>
-PackReport iso_of_set(const PatchSet<T>& patches, Across direction, double t, CurveSet<T>& curves,
-                      PackOptions options) {
+Report iso_of_set(const PatchSet<T>& patches, Across direction, double t, CurveSet<T>& curves,
+                  PackOptions options) {
   const SetStorage<T>* const set = patches.storage();
   if (set == nullptr) {
     return iso_of_nets(ControlNets<T>{}, direction, t, curves, options);
@@ -143,49 +143,49 @@ PackReport iso_of_set(const PatchSet<T>& patches, Across direction, double t, Cu
 } // namespace detail
 
 template <typename S>
-PackReport iso_u(const ControlNets<S>& nets, double u0, Values<double> points,
-                 const Options& options) noexcept {
+Report iso_u(const ControlNets<S>& nets, double u0, Values<double> points,
+             const RunOptions& options) noexcept {
   return detail::iso_points(nets, detail::Across::u, u0, points, options);
 }
 
 template <typename S>
-PackReport iso_v(const ControlNets<S>& nets, double v0, Values<double> points,
-                 const Options& options) noexcept {
+Report iso_v(const ControlNets<S>& nets, double v0, Values<double> points,
+             const RunOptions& options) noexcept {
   return detail::iso_points(nets, detail::Across::v, v0, points, options);
 }
 
 template <typename T, typename S>
-PackReport iso_u(const ControlNets<S>& nets, double u0, CurveSet<T>& curves,
-                 const PackOptions& options) noexcept {
+Report iso_u(const ControlNets<S>& nets, double u0, CurveSet<T>& curves,
+             const PackOptions& options) noexcept {
   return detail::iso_of_nets(nets, detail::Across::u, u0, curves, options);
 }
 
 template <typename T, typename S>
-PackReport iso_v(const ControlNets<S>& nets, double v0, CurveSet<T>& curves,
-                 const PackOptions& options) noexcept {
+Report iso_v(const ControlNets<S>& nets, double v0, CurveSet<T>& curves,
+             const PackOptions& options) noexcept {
   return detail::iso_of_nets(nets, detail::Across::v, v0, curves, options);
 }
 
 template <typename T>
-PackReport iso_u(const PatchSet<T>& patches, double u0, CurveSet<T>& curves,
-                 const PackOptions& options) noexcept {
+Report iso_u(const PatchSet<T>& patches, double u0, CurveSet<T>& curves,
+             const PackOptions& options) noexcept {
   return detail::iso_of_set(patches, detail::Across::u, u0, curves, options);
 }
 
 template <typename T>
-PackReport iso_v(const PatchSet<T>& patches, double v0, CurveSet<T>& curves,
-                 const PackOptions& options) noexcept {
+Report iso_v(const PatchSet<T>& patches, double v0, CurveSet<T>& curves,
+             const PackOptions& options) noexcept {
   return detail::iso_of_set(patches, detail::Across::v, v0, curves, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE_SET(name, T, S)                                                     \
-  template SIMDBEZIER_API PackReport name(const ControlNets<S>&, double, CurveSet<T>&,             \
-                                          const PackOptions&) noexcept;
+  template SIMDBEZIER_API Report name(const ControlNets<S>&, double, CurveSet<T>&,                 \
+                                      const PackOptions&) noexcept;
 #define SIMDBEZIER_INSTANTIATE(name, S)                                                            \
-  template SIMDBEZIER_API PackReport name(const ControlNets<S>&, double, Values<double>,           \
-                                          const Options&) noexcept;                                \
-  template SIMDBEZIER_API PackReport name(const PatchSet<S>&, double, CurveSet<S>&,                \
-                                          const PackOptions&) noexcept;                            \
+  template SIMDBEZIER_API Report name(const ControlNets<S>&, double, Values<double>,               \
+                                      const RunOptions&) noexcept;                                 \
+  template SIMDBEZIER_API Report name(const PatchSet<S>&, double, CurveSet<S>&,                    \
+                                      const PackOptions&) noexcept;                                \
   SIMDBEZIER_INSTANTIATE_SET(name, float, S)                                                       \
   SIMDBEZIER_INSTANTIATE_SET(name, double, S)
 SIMDBEZIER_INSTANTIATE(iso_u, float)

@@ -17,8 +17,8 @@ namespace {
 
 /// Packs all patches; reports the fault of the lowest patch, whichever thread finds it.
 template <typename T, typename S>
-PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackRun> runs,
-                     const PackOptions& options, Isa isa, const SetStorage<T>& storage) {
+Report pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackRun> runs,
+                 const PackOptions& options, Isa isa, const SetStorage<T>& storage) {
   const KernelTable<T>& table = kernel_table<T>(isa);
   std::size_t groups = 0;
   for (const PackRun& run : runs) {
@@ -27,7 +27,7 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
   LowestFault fault;
   auto body = [&](int, std::size_t begin, std::size_t end) {
     std::size_t before = 0; // groups of the runs that came before
-    PackReport report;
+    Report report;
     for (const PackRun& run : runs) {
       const std::size_t own = lane_groups(run.count);
       const std::size_t from = std::max(begin, before) - before;
@@ -73,9 +73,9 @@ bool PatchSet<T>::has_local_origins() const noexcept {
 }
 
 template <typename T, typename S>
-PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
-                const PackOptions& options) noexcept try {
-  PackReport report = detail::check_packable(nets);
+Report pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
+            const PackOptions& options) noexcept try {
+  Report report = detail::check_packable(nets);
   if (!report) {
     return report;
   }
@@ -102,17 +102,17 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
 }
 
 template <typename T, typename S>
-PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set, const PackOptions& options) noexcept {
+Report pack(const ControlNets<S>& nets, PatchSet<T>& set, const PackOptions& options) noexcept {
   return pack(std::span<const ControlNets<S>>(&nets, 1), set, options);
 }
 
 template class PatchSet<float>;
 template class PatchSet<double>;
 #define SIMDBEZIER_INSTANTIATE_PACK(T, S)                                                          \
-  template SIMDBEZIER_API PackReport pack(std::span<const ControlNets<S>>, PatchSet<T>&,           \
-                                          const PackOptions&) noexcept;                            \
-  template SIMDBEZIER_API PackReport pack(const ControlNets<S>&, PatchSet<T>&,                     \
-                                          const PackOptions&) noexcept;
+  template SIMDBEZIER_API Report pack(std::span<const ControlNets<S>>, PatchSet<T>&,               \
+                                      const PackOptions&) noexcept;                                \
+  template SIMDBEZIER_API Report pack(const ControlNets<S>&, PatchSet<T>&,                         \
+                                      const PackOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE_PACK(float, float)
 SIMDBEZIER_INSTANTIATE_PACK(float, double)
 SIMDBEZIER_INSTANTIATE_PACK(double, float)

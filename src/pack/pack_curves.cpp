@@ -47,8 +47,7 @@ Status allocate(std::size_t count, CurveStorage<T>& storage) {
 
 /// The first fault of one curve, whose values have been written.
 template <typename T, typename S>
-PackReport inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storage,
-                   std::size_t curve) {
+Report inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storage, std::size_t curve) {
   const CurveShape& shape = storage.shape;
   const S* const polygon = curves.points + static_cast<std::ptrdiff_t>(curve) * curves.curve_stride;
   for (int c = 0; c < static_cast<int>(shape.channels()); ++c) {
@@ -74,8 +73,8 @@ PackReport inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storag
 
 /// Packs all curves; reports the fault of the lowest one, whichever thread finds it.
 template <typename T, typename S>
-PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, Isa isa,
-                    CurveStorage<T>& storage) {
+Report pack_all(const ControlCurves<S>& curves, const PackOptions& options, Isa isa,
+                CurveStorage<T>& storage) {
   const CurvePackKernel<T, S> kernel = packing_kernel<S>(*kernel_table<T>(isa).curves);
   const double* const shift = options.relative_to;
   const CurvePackTask<T, S> task{curves,
@@ -125,15 +124,14 @@ bool CurveSet<T>::has_local_origins() const noexcept {
 }
 
 template <typename T, typename S>
-PackReport pack(const ControlCurves<S>& curves, CurveSet<T>& set,
-                const PackOptions& options) noexcept try {
+Report pack(const ControlCurves<S>& curves, CurveSet<T>& set, const PackOptions& options) noexcept
+    try {
   const Status usable = detail::check_curves(curves);
   if (usable != Status::ok) {
     return {usable};
   }
   Isa isa = Isa::automatic;
-  if (const PackReport resolved = detail::resolve_packing(options, curves.components, isa);
-      !resolved) {
+  if (const Report resolved = detail::resolve_packing(options, curves.components, isa); !resolved) {
     return resolved;
   }
   auto storage = std::make_shared<detail::CurveStorage<T>>();
@@ -144,7 +142,7 @@ PackReport pack(const ControlCurves<S>& curves, CurveSet<T>& set,
   if (allocated != Status::ok) {
     return {allocated};
   }
-  const PackReport report = detail::pack_all(curves, options, isa, *storage);
+  const Report report = detail::pack_all(curves, options, isa, *storage);
   if (!report) {
     return report;
   }
@@ -156,13 +154,13 @@ PackReport pack(const ControlCurves<S>& curves, CurveSet<T>& set,
 
 template class CurveSet<float>;
 template class CurveSet<double>;
-template SIMDBEZIER_API PackReport pack(const ControlCurves<float>&, CurveSet<float>&,
-                                        const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack(const ControlCurves<double>&, CurveSet<float>&,
-                                        const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack(const ControlCurves<float>&, CurveSet<double>&,
-                                        const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack(const ControlCurves<double>&, CurveSet<double>&,
-                                        const PackOptions&) noexcept;
+template SIMDBEZIER_API Report pack(const ControlCurves<float>&, CurveSet<float>&,
+                                    const PackOptions&) noexcept;
+template SIMDBEZIER_API Report pack(const ControlCurves<double>&, CurveSet<float>&,
+                                    const PackOptions&) noexcept;
+template SIMDBEZIER_API Report pack(const ControlCurves<float>&, CurveSet<double>&,
+                                    const PackOptions&) noexcept;
+template SIMDBEZIER_API Report pack(const ControlCurves<double>&, CurveSet<double>&,
+                                    const PackOptions&) noexcept;
 
 } // namespace simdbezier

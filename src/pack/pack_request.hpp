@@ -25,7 +25,7 @@ inline Status packing_isa(const PackOptions& options, Isa& isa) noexcept {
 }
 
 /// Checks that relative_to is finite in the components that points have.
-inline PackReport check_relative_to(const PackOptions& options, int components) noexcept {
+inline Report check_relative_to(const PackOptions& options, int components) noexcept {
   for (int c = 0; c < std::min(components, 3); ++c) {
     if (!std::isfinite(options.relative_to[c])) {
       return {Status::non_finite_input, 0, -1, c};
@@ -36,20 +36,20 @@ inline PackReport check_relative_to(const PackOptions& options, int components) 
 
 /// The first step of packing: whether the options are sound for points of so many components, and
 /// which instruction set packs.
-inline PackReport resolve_packing(const PackOptions& options, int components, Isa& isa) noexcept {
-  const PackReport moved = check_relative_to(options, components);
-  return moved ? PackReport{packing_isa(options, isa)} : moved;
+inline Report resolve_packing(const PackOptions& options, int components, Isa& isa) noexcept {
+  const Report moved = check_relative_to(options, components);
+  return moved ? Report{packing_isa(options, isa)} : moved;
 }
 
 /// Packs [begin, end) up to the first fault. pack(begin, end) calls a kernel, which only compares
 /// squares with a bound; inspect(k) decides about patches that it finds doubtful.
 template <typename Pack, typename Inspect>
-PackReport pack_and_inspect(std::size_t begin, std::size_t end, const Pack& pack,
-                            const Inspect& inspect) {
+Report pack_and_inspect(std::size_t begin, std::size_t end, const Pack& pack,
+                        const Inspect& inspect) {
   while (begin < end) {
     const PackDoubt doubt = pack(begin, end);
     for (std::size_t k = doubt.begin; k < doubt.end; ++k) {
-      const PackReport report = inspect(k);
+      const Report report = inspect(k);
       if (!report) {
         return report;
       }
@@ -78,22 +78,22 @@ S* writable_points(const GivenPoints& given) noexcept {
 /// The fault of the lowest patch or curve, whichever thread finds it.
 class LowestFault {
 public:
-  void add(const PackReport& report) {
+  void add(const Report& report) {
     if (!report) {
       while (guard_.test_and_set(std::memory_order_acquire)) { // faults are few, and this is short
       }
-      if (lowest_ || report.patch < lowest_.patch) {
+      if (lowest_ || report.item < lowest_.item) {
         lowest_ = report;
       }
       guard_.clear(std::memory_order_release);
     }
   }
   /// The lowest fault, to be asked for when all threads have finished.
-  [[nodiscard]] const PackReport& report() const noexcept { return lowest_; }
+  [[nodiscard]] const Report& report() const noexcept { return lowest_; }
 
 private:
   std::atomic_flag guard_;
-  PackReport lowest_;
+  Report lowest_;
 };
 
 } // namespace simdbezier::detail

@@ -25,8 +25,8 @@ public:
             exceeds_caches(storage.count * storage.bytes_of_patch(storage.origins != nullptr))) {}
 
   /// Packs patches [begin, end) of the run up to the first fault.
-  [[nodiscard]] PackReport pack(std::size_t begin, std::size_t end) const {
-    const PackReport report = pack_and_inspect(
+  [[nodiscard]] Report pack(std::size_t begin, std::size_t end) const {
+    const Report report = pack_and_inspect(
         begin, end, [&](std::size_t first, std::size_t last) { return call_kernel(first, last); },
         [&](std::size_t patch) {
           return inspect(nets_, patch, storage_, run_.place + patch, run_.number + patch);

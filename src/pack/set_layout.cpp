@@ -105,7 +105,7 @@ void place_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
 } // namespace
 
 template <typename S>
-PackReport check_packable(std::span<const ControlNets<S>> nets) noexcept {
+Report check_packable(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patch = 0;
   if (is_missing(nets)) {
     return {Status::null_input, 0};
@@ -155,8 +155,8 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
   return Status::ok;
 }
 
-template PackReport check_packable(std::span<const ControlNets<float>>) noexcept;
-template PackReport check_packable(std::span<const ControlNets<double>>) noexcept;
+template Report check_packable(std::span<const ControlNets<float>>) noexcept;
+template Report check_packable(std::span<const ControlNets<double>>) noexcept;
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
   template Status lay_out(std::span<const ControlNets<S>>, const PackOptions&, SetStorage<T>*,     \
                           SetStorage<T>&, std::vector<PackRun>&);

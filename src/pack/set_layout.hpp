@@ -23,7 +23,7 @@ struct PackRun {
 /// The first entry that no set can be packed from, as a report that names its first patch; ok
 /// where there is none. Points are not looked at.
 template <typename S>
-PackReport check_packable(std::span<const ControlNets<S>> nets) noexcept;
+Report check_packable(std::span<const ControlNets<S>> nets) noexcept;
 
 /// Allocates a bucket for every shape and form of weights that occurs, in the order in which they
 /// do, and says which patch goes where. used: null, or a set whose memory may be taken. Returns ok

@@ -1,7 +1,6 @@
 // Calls that return what they allocate.
 #pragma once
 
-#include <cstddef>
 #include <new>
 #include <stdexcept>
 
@@ -10,23 +9,22 @@
 namespace simdbezier::detail {
 
 /// What step(result) makes; where it does not succeed or memory does not suffice, an empty result
-/// with the status, and with the number of the patch or curve at fault.
+/// with the report.
 template <typename Result, typename Step>
-Result attempt(std::size_t Result::*fault, const Step& step) noexcept {
+Result attempt(const Step& step) noexcept {
   Result result;
   try {
-    result.status = step(result);
+    result.report.status = step(result);
   } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
+    result.report.status = Status::out_of_memory;
   } catch (const std::length_error&) {
-    result.status = Status::size_overflow;
+    result.report.status = Status::size_overflow;
   }
   if (result) {
     return result;
   }
   Result none;
-  none.status = result.status;
-  none.*fault = result.*fault;
+  none.report = result.report;
   return none;
 }
 

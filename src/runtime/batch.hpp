@@ -9,6 +9,7 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
 
+#include "src/runtime/executed_isa.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/aligned_memory.hpp"
 
@@ -161,30 +162,23 @@ Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScrat
   return executed;
 }
 
-/// Tells the caller which instruction set ran.
-inline void report(Isa executed, const Options& options) noexcept {
-  if (options.executed != nullptr) {
-    *options.executed = executed;
-  }
-}
-
 /// Runs all units of an evaluate call likewise, each thread with `scratch_bytes` of its own, and
 /// reports the instruction set that ran. Returns ok | out_of_memory, before anything is written.
 template <typename Work>
-Status run_blocks_here(std::size_t units, std::size_t duration, const Options& options,
+Status run_blocks_here(std::size_t units, std::size_t duration, const RunOptions& options,
                        std::size_t scratch_bytes, const Work& work) noexcept {
   const int threads = thread_count(options.threads, units, duration);
   ThreadScratch scratch;
   if (!scratch.allocate(scratch_bytes, threads)) {
     return Status::out_of_memory;
   }
-  report(run_units(0, units, threads, scratch, work), options);
+  note_executed(run_units(0, units, threads, scratch, work));
   return Status::ok;
 }
 
 /// Likewise, of a call that may be in any floating-point environment.
 template <typename Work>
-Status run_blocks(std::size_t units, std::size_t duration, const Options& options,
+Status run_blocks(std::size_t units, std::size_t duration, const RunOptions& options,
                   std::size_t scratch_bytes, const Work& work) noexcept {
   const DefaultFpEnvironment environment;
   return run_blocks_here(units, duration, options, scratch_bytes, work);

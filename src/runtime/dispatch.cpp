@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "isa_list.inc"
 

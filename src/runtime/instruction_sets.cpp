@@ -1,6 +1,6 @@
 // All instruction sets, whether this build has them or not. instruction_sets.inc is the table of
 // cmake/isa.cmake: SIMDBEZIER_INSTRUCTION_SET(name, NAME, fuses, runs_here) for each of them.
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "src/runtime/dispatch.hpp"
 

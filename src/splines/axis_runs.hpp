@@ -30,8 +30,8 @@ struct AxisRuns {
 
   /// `most`: parameters of one run.
   template <typename S>
-  [[nodiscard]] SplineReport build(const SplineSurface<S>& surface, int direction,
-                                   std::span<const double> given, std::size_t most) {
+  [[nodiscard]] Report build(const SplineSurface<S>& surface, int direction,
+                             std::span<const double> given, std::size_t most) {
     if (given.data() == nullptr && !given.empty()) {
       return {Status::null_input, 0, 0, direction};
     }
@@ -39,7 +39,7 @@ struct AxisRuns {
     const SplineAxis axis = axis_of(surface, direction);
     std::size_t knot = 0;
     if (const Status status = knots.build(axis, knot); !status) {
-      return {status, 0, knot, direction};
+      return {status, 0, static_cast<std::ptrdiff_t>(knot), direction};
     }
     spans = knots.spans().size();
     count = given.size();
@@ -47,7 +47,7 @@ struct AxisRuns {
     parameters.reserve(given.size() + (given.size() / most + 2) * kMaxLanes);
     for (std::size_t k = 0; k < given.size(); ++k) {
       if (const Status status = finder.find(given[k]); !status) {
-        return {status, 0, k, direction};
+        return {status, 0, static_cast<std::ptrdiff_t>(k), direction};
       }
       if (runs.empty() || runs.back().span != finder.span() || runs.back().count == most) {
         end_run();

@@ -53,15 +53,14 @@ void divide(const Vectors<T>& vectors, std::size_t samples, const Divisor& divis
 }
 
 template <typename T, typename S>
-SplineReport evaluate_surface(const PatchSet<T>& set, const SplineSurface<S>& surface,
-                              std::span<const double> U, std::span<const double> V,
-                              const Outputs<T>& out, const Options& options,
-                              std::size_t first_patch) {
+Report evaluate_surface(const PatchSet<T>& set, const SplineSurface<S>& surface,
+                        std::span<const double> U, std::span<const double> V, const Outputs<T>& out,
+                        const Options& options, std::size_t first_patch) {
   if (U.size() != V.size()) {
     return {Status::unequal_lengths};
   }
   SamplePlaces places(U.size(), 2);
-  const SplineReport located = locate(surface, U.size(), U.data(), V.data(), places.view());
+  const Report located = locate(surface, U.size(), U.data(), V.data(), places.view());
   if (!located) {
     return located;
   }
@@ -84,11 +83,11 @@ SplineReport evaluate_surface(const PatchSet<T>& set, const SplineSurface<S>& su
 }
 
 template <typename T, typename S>
-SplineReport evaluate_curve(const CurveSet<T>& set, const SplineCurve<S>& curve,
-                            std::span<const double> t, const CurveOutputs<T>& out,
-                            const Options& options, std::size_t first_curve) {
+Report evaluate_curve(const CurveSet<T>& set, const SplineCurve<S>& curve,
+                      std::span<const double> t, const CurveOutputs<T>& out, const Options& options,
+                      std::size_t first_curve) {
   SamplePlaces places(t.size(), 1);
-  if (const SplineReport located = locate(curve, t.size(), t.data(), places.view()); !located) {
+  if (const Report located = locate(curve, t.size(), t.data(), places.view()); !located) {
     return located;
   }
   if (!places.move_to(first_curve, span_count(curve).patches(), set.size())) {
@@ -109,10 +108,10 @@ SplineReport evaluate_curve(const CurveSet<T>& set, const SplineCurve<S>& curve,
 } // namespace detail
 
 template <typename T, typename S>
-SplineReport evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface,
-                              std::span<const double> U, std::span<const double> V,
-                              const std::type_identity_t<Outputs<T>>& out, const Options& options,
-                              std::size_t first_patch) noexcept {
+Report evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface,
+                        std::span<const double> U, std::span<const double> V,
+                        const std::type_identity_t<Outputs<T>>& out, const Options& options,
+                        std::size_t first_patch) noexcept {
   const detail::DefaultFpEnvironment environment;
   return detail::guarded([&] {
     return detail::evaluate_surface<T, S>(set, surface, U, V, out, options, first_patch);
@@ -120,21 +119,20 @@ SplineReport evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& su
 }
 
 template <typename T, typename S>
-SplineReport evaluate_samples(const CurveSet<T>& set, const SplineCurve<S>& curve,
-                              std::span<const double> t,
-                              const std::type_identity_t<CurveOutputs<T>>& out,
-                              const Options& options, std::size_t first_curve) noexcept {
+Report evaluate_samples(const CurveSet<T>& set, const SplineCurve<S>& curve,
+                        std::span<const double> t, const std::type_identity_t<CurveOutputs<T>>& out,
+                        const Options& options, std::size_t first_curve) noexcept {
   const detail::DefaultFpEnvironment environment;
   return detail::guarded(
       [&] { return detail::evaluate_curve<T, S>(set, curve, t, out, options, first_curve); });
 }
 
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
-  template SIMDBEZIER_API SplineReport evaluate_samples(                                           \
+  template SIMDBEZIER_API Report evaluate_samples(                                                 \
       const PatchSet<T>&, const SplineSurface<S>&, std::span<const double>,                        \
       std::span<const double>, const std::type_identity_t<Outputs<T>>&, const Options&,            \
       std::size_t) noexcept;                                                                       \
-  template SIMDBEZIER_API SplineReport evaluate_samples(                                           \
+  template SIMDBEZIER_API Report evaluate_samples(                                                 \
       const CurveSet<T>&, const SplineCurve<S>&, std::span<const double>,                          \
       const std::type_identity_t<CurveOutputs<T>>&, const Options&, std::size_t) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)

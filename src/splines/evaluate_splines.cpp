@@ -57,20 +57,20 @@ private:
 } // namespace detail
 
 template <typename T, typename S>
-SplineReport evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface,
-                           std::span<const double> U, std::span<const double> V,
-                           const std::type_identity_t<Outputs<T>>& out, const Options& options,
-                           std::size_t first_patch) noexcept {
+Report evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface,
+                     std::span<const double> U, std::span<const double> V,
+                     const std::type_identity_t<Outputs<T>>& out, const Options& options,
+                     std::size_t first_patch) noexcept {
   const detail::DefaultFpEnvironment environment;
-  return detail::guarded([&]() -> SplineReport {
+  return detail::guarded([&]() -> Report {
     detail::AxisRuns<T> u;
     detail::AxisRuns<T> v;
-    if (const SplineReport report = u.build(surface, 0, U, detail::kMostColumns); !report) {
+    if (const Report report = u.build(surface, 0, U, detail::kMostColumns); !report) {
       return report;
     }
     const std::size_t rows = std::clamp<std::size_t>(
         detail::kTogether / std::max<std::size_t>(U.size(), 1), 1, detail::kMostRows);
-    if (const SplineReport report = v.build(surface, 1, V, rows); !report) {
+    if (const Report report = v.build(surface, 1, V, rows); !report) {
       return report;
     }
     const detail::SplineWhere where{{first_patch, u.spans * v.spans}};
@@ -80,27 +80,27 @@ SplineReport evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surfa
 }
 
 template <typename T, typename S>
-SplineReport evaluate_grid(const SplineSurface<S>& surface, std::span<const double> U,
-                           std::span<const double> V, const Outputs<T>& out,
-                           const Options& options) noexcept {
+Report evaluate_grid(const SplineSurface<S>& surface, std::span<const double> U,
+                     std::span<const double> V, const Outputs<T>& out,
+                     const Options& options) noexcept {
   PackOptions how;
   how.threads = options.threads;
   how.isa = options.isa;
   PatchSet<T> set;
-  if (const SplineReport report = pack(surface, set, {}, how); !report) {
+  if (const Report report = pack(surface, set, {}, how); !report) {
     return report;
   }
   return evaluate_grid(set, surface, U, V, out, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
-  template SIMDBEZIER_API SplineReport evaluate_grid(                                              \
-      const PatchSet<T>&, const SplineSurface<S>&, std::span<const double>,                        \
-      std::span<const double>, const std::type_identity_t<Outputs<T>>&, const Options&,            \
-      std::size_t) noexcept;                                                                       \
-  template SIMDBEZIER_API SplineReport evaluate_grid(                                              \
-      const SplineSurface<S>&, std::span<const double>, std::span<const double>,                   \
-      const Outputs<T>&, const Options&) noexcept;
+  template SIMDBEZIER_API Report evaluate_grid(const PatchSet<T>&, const SplineSurface<S>&,        \
+                                               std::span<const double>, std::span<const double>,   \
+                                               const std::type_identity_t<Outputs<T>>&,            \
+                                               const Options&, std::size_t) noexcept;              \
+  template SIMDBEZIER_API Report evaluate_grid(const SplineSurface<S>&, std::span<const double>,   \
+                                               std::span<const double>, const Outputs<T>&,         \
+                                               const Options&) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)
 SIMDBEZIER_INSTANTIATE(float, double)
 SIMDBEZIER_INSTANTIATE(double, float)

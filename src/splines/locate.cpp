@@ -18,15 +18,15 @@ void put(V* array, std::size_t k, V value) noexcept {
 
 /// Calls visit(k, finder) for every parameter of one direction, up to the first at fault.
 template <typename Visit>
-SplineReport for_places(const SplineKnots& knots, const SplineAxis& axis, std::size_t count,
-                        const double* parameters, int direction, const Visit& visit) {
+Report for_places(const SplineKnots& knots, const SplineAxis& axis, std::size_t count,
+                  const double* parameters, int direction, const Visit& visit) {
   if (parameters == nullptr && count > 0) {
     return {Status::null_input};
   }
   SpanFinder finder(knots, axis);
   for (std::size_t k = 0; k < count; ++k) {
     if (const Status status = finder.find(parameters[k]); !status) {
-      return {status, 0, k, direction};
+      return {status, 0, static_cast<std::ptrdiff_t>(k), direction};
     }
     visit(k, finder);
   }
@@ -34,18 +34,18 @@ SplineReport for_places(const SplineKnots& knots, const SplineAxis& axis, std::s
 }
 
 template <typename S>
-SplineReport find_places(const SplineSurface<S>& surface, std::size_t count,
-                         const double* const* at, const SplinePlaces& places) {
+Report find_places(const SplineSurface<S>& surface, std::size_t count, const double* const* at,
+                   const SplinePlaces& places) {
   const int directions = surface.degree_v == 0 ? 1 : 2; // 1: a curve
   SplineKnots knots[2];
   for (int d = 0; d < directions; ++d) {
     std::size_t knot = 0;
     if (const Status status = knots[d].build(axis_of(surface, d), knot); !status) {
-      return {status, 0, knot, d};
+      return {status, 0, static_cast<std::ptrdiff_t>(knot), d};
     }
     // Nothing is written where one of them is at fault.
-    const SplineReport report = for_places(knots[d], axis_of(surface, d), count, at[d], d,
-                                           [](std::size_t, const SpanFinder&) {});
+    const Report report = for_places(knots[d], axis_of(surface, d), count, at[d], d,
+                                     [](std::size_t, const SpanFinder&) {});
     if (!report) {
       return report;
     }
@@ -93,7 +93,7 @@ SpanCounts span_count(const SplineSurface<S>& surface) noexcept {
   const detail::DefaultFpEnvironment environment;
   static_cast<void>(detail::guarded([&] {
     counts = surface.degree_v == 0 ? SpanCounts() : detail::count_spans(surface);
-    return SplineReport();
+    return Report();
   }));
   return counts;
 }
@@ -104,25 +104,25 @@ SpanCounts span_count(const SplineCurve<S>& curve) noexcept {
   const detail::DefaultFpEnvironment environment;
   static_cast<void>(detail::guarded([&] {
     counts = detail::count_spans(detail::as_surface(curve));
-    return SplineReport();
+    return Report();
   }));
   return counts;
 }
 
 template <typename S>
-SplineReport locate(const SplineSurface<S>& surface, std::size_t count, const double* U,
-                    const double* V, const SplinePlaces& places) noexcept {
+Report locate(const SplineSurface<S>& surface, std::size_t count, const double* U, const double* V,
+              const SplinePlaces& places) noexcept {
   const detail::DefaultFpEnvironment environment;
   const double* const at[2] = {U, V};
-  return detail::guarded([&]() -> SplineReport {
-    return surface.degree_v == 0 ? SplineReport{Status::bad_degree, 0, 0, 1}
+  return detail::guarded([&]() -> Report {
+    return surface.degree_v == 0 ? Report{Status::bad_degree, 0, 0, 1}
                                  : detail::find_places(surface, count, at, places);
   });
 }
 
 template <typename S>
-SplineReport locate(const SplineCurve<S>& curve, std::size_t count, const double* U,
-                    const SplinePlaces& places) noexcept {
+Report locate(const SplineCurve<S>& curve, std::size_t count, const double* U,
+              const SplinePlaces& places) noexcept {
   const detail::DefaultFpEnvironment environment;
   const double* const at[2] = {U, nullptr};
   return detail::guarded(
@@ -132,10 +132,10 @@ SplineReport locate(const SplineCurve<S>& curve, std::size_t count, const double
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \
   template SIMDBEZIER_API SpanCounts span_count(const SplineSurface<S>&) noexcept;                 \
   template SIMDBEZIER_API SpanCounts span_count(const SplineCurve<S>&) noexcept;                   \
-  template SIMDBEZIER_API SplineReport locate(const SplineSurface<S>&, std::size_t, const double*, \
-                                              const double*, const SplinePlaces&) noexcept;        \
-  template SIMDBEZIER_API SplineReport locate(const SplineCurve<S>&, std::size_t, const double*,   \
-                                              const SplinePlaces&) noexcept;
+  template SIMDBEZIER_API Report locate(const SplineSurface<S>&, std::size_t, const double*,       \
+                                        const double*, const SplinePlaces&) noexcept;              \
+  template SIMDBEZIER_API Report locate(const SplineCurve<S>&, std::size_t, const double*,         \
+                                        const SplinePlaces&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

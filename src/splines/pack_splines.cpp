@@ -67,10 +67,10 @@ public:
   }
 
   /// Packs rows [begin, end) up to the first fault.
-  PackReport pack(std::size_t begin, std::size_t end, unsigned char* scratch) const {
+  Report pack(std::size_t begin, std::size_t end, unsigned char* scratch) const {
     SplineCutter<S> cutter(list_, table_.nets->means, scratch);
     S* const nets = reinterpret_cast<S*>(scratch + whole_lines(list_.scratch_bytes()));
-    PackReport report;
+    Report report;
     for (std::size_t row = begin; row < end && report;) {
       const std::size_t first = list_.patch_of(row);
       const PackRun& run = run_of(first);
@@ -113,20 +113,20 @@ private:
 
 /// The report of a patch as one of its spline.
 template <typename S>
-SplineReport report_of(const PackReport& report, const SplineList<S>& list) noexcept {
+Report report_of(const Report& report, const SplineList<S>& list) noexcept {
   std::size_t surface = 0;
   while (surface + 1 < list.splines().size() &&
-         list.splines()[surface + 1].first_patch <= report.patch) {
+         list.splines()[surface + 1].first_patch <= report.item) {
     ++surface;
   }
   return {report.status, surface, 0, report.component};
 }
 
 template <typename T, typename S>
-SplineReport pack_list(const SplineList<S>& list, PatchSet<T>& set, const PackOptions& options) {
+Report pack_list(const SplineList<S>& list, PatchSet<T>& set, const PackOptions& options) {
   const int components = list.splines().empty() ? 3 : list.splines()[0].surface.components;
   Isa isa = Isa::automatic;
-  if (const PackReport report = resolve_packing(options, components, isa); !report) {
+  if (const Report report = resolve_packing(options, components, isa); !report) {
     return {report.status, 0, 0, report.component};
   }
   const std::vector<ControlNets<S>> views = views_of(list);
@@ -156,7 +156,7 @@ SplineReport pack_list(const SplineList<S>& list, PatchSet<T>& set, const PackOp
 }
 
 template <typename S>
-SplineReport check_components(std::span<const SplineSurface<S>> surfaces) noexcept {
+Report check_components(std::span<const SplineSurface<S>> surfaces) noexcept {
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     if (surfaces[k].components != surfaces.front().components) {
       return {Status::bad_components, k};
@@ -169,24 +169,24 @@ SplineReport check_components(std::span<const SplineSurface<S>> surfaces) noexce
 } // namespace detail
 
 template <typename T, typename S>
-SplineReport pack(std::span<const SplineSurface<S>> surfaces, PatchSet<T>& set,
-                  std::span<PatchInterval> intervals, const PackOptions& options) noexcept {
+Report pack(std::span<const SplineSurface<S>> surfaces, PatchSet<T>& set,
+            std::span<PatchInterval> intervals, const PackOptions& options) noexcept {
   if (surfaces.data() == nullptr && !surfaces.empty()) {
     return {Status::null_input};
   }
   const detail::DefaultFpEnvironment environment;
-  return detail::guarded([&]() -> SplineReport {
-    if (const SplineReport report = detail::check_components(surfaces); !report) {
+  return detail::guarded([&]() -> Report {
+    if (const Report report = detail::check_components(surfaces); !report) {
       return report;
     }
     detail::SplineList<S> list;
-    if (const SplineReport report = list.prepare(surfaces); !report) {
+    if (const Report report = list.prepare(surfaces); !report) {
       return report;
     }
     if (!intervals.empty() && intervals.size() != list.patches()) {
       return {Status::unequal_lengths};
     }
-    const SplineReport report = detail::pack_list(list, set, options);
+    const Report report = detail::pack_list(list, set, options);
     if (report) {
       list.write_intervals(intervals);
     }
@@ -195,18 +195,16 @@ SplineReport pack(std::span<const SplineSurface<S>> surfaces, PatchSet<T>& set,
 }
 
 template <typename T, typename S>
-SplineReport pack(const SplineSurface<S>& surface, PatchSet<T>& set,
-                  std::span<PatchInterval> intervals, const PackOptions& options) noexcept {
+Report pack(const SplineSurface<S>& surface, PatchSet<T>& set, std::span<PatchInterval> intervals,
+            const PackOptions& options) noexcept {
   return pack(std::span<const SplineSurface<S>>(&surface, 1), set, intervals, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
-  template SIMDBEZIER_API SplineReport pack(std::span<const SplineSurface<S>>, PatchSet<T>&,       \
-                                            std::span<PatchInterval>,                              \
-                                            const PackOptions&) noexcept;                          \
-  template SIMDBEZIER_API SplineReport pack(const SplineSurface<S>&, PatchSet<T>&,                 \
-                                            std::span<PatchInterval>,                              \
-                                            const PackOptions&) noexcept;
+  template SIMDBEZIER_API Report pack(std::span<const SplineSurface<S>>, PatchSet<T>&,             \
+                                      std::span<PatchInterval>, const PackOptions&) noexcept;      \
+  template SIMDBEZIER_API Report pack(const SplineSurface<S>&, PatchSet<T>&,                       \
+                                      std::span<PatchInterval>, const PackOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)
 SIMDBEZIER_INSTANTIATE(float, double)
 SIMDBEZIER_INSTANTIATE(double, float)

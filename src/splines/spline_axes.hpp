@@ -39,7 +39,7 @@ SplineSurface<S> as_surface(const SplineCurve<S>& curve) noexcept {
 
 /// What a step reports; out_of_memory where it throws.
 template <typename Step>
-SplineReport guarded(const Step& step) noexcept {
+Report guarded(const Step& step) noexcept {
   try {
     return step();
   } catch (const std::bad_alloc&) {

@@ -42,7 +42,7 @@ constexpr S kMostValue = sizeof(S) == sizeof(double) ? S(0x1p980) : S(0x1p127);
 
 /// Looks at every control value, and whether neighbours are one point.
 template <typename S>
-SplineReport inspect(PreparedSpline<S>& spline) noexcept {
+Report inspect(PreparedSpline<S>& spline) noexcept {
   const SplineSurface<S>& surface = spline.surface;
   const auto components = static_cast<std::size_t>(surface.components);
   const bool rational = surface.weights != Weights::none;
@@ -52,7 +52,7 @@ SplineReport inspect(PreparedSpline<S>& spline) noexcept {
       for (std::size_t c = 0; c < spline.channels(); ++c) {
         const S value = point[static_cast<std::ptrdiff_t>(c) * surface.component_stride];
         const bool is_weight = c == components;
-        const std::size_t number = row * surface.columns + column;
+        const auto number = static_cast<std::ptrdiff_t>(row * surface.columns + column);
         if (!std::isfinite(value) || (is_weight && !(value > 0))) {
           return {is_weight ? Status::bad_weight : Status::non_finite_input, 0, number,
                   static_cast<int>(c)};
@@ -88,7 +88,7 @@ bool are_same(const SplineAxis& a, const SplineAxis& b) noexcept {
 } // namespace
 
 template <typename S>
-SplineReport SplineList<S>::add(const SplineSurface<S>& surface) {
+Report SplineList<S>::add(const SplineSurface<S>& surface) {
   PreparedSpline<S> spline{surface, {}, {}, 0, 0, false};
   for (int direction = 0; direction < 2; ++direction) {
     const SplineAxis axis = axis_of(surface, direction);
@@ -106,7 +106,7 @@ SplineReport SplineList<S>::add(const SplineSurface<S>& surface) {
       const auto built = std::make_shared<SplineFactors>();
       std::size_t knot = 0;
       if (const Status status = built->build(axis, knot); !status) {
-        return {status, 0, knot, direction};
+        return {status, 0, static_cast<std::ptrdiff_t>(knot), direction};
       }
       factors = built;
     }
@@ -115,11 +115,11 @@ SplineReport SplineList<S>::add(const SplineSurface<S>& surface) {
 }
 
 template <typename S>
-SplineReport SplineList<S>::finish(PreparedSpline<S> spline) {
+Report SplineList<S>::finish(PreparedSpline<S> spline) {
   if (const Status status = check_points(spline.surface); !status) {
     return {status};
   }
-  if (const SplineReport report = inspect(spline); !report) {
+  if (const Report report = inspect(spline); !report) {
     return report;
   }
   spline.first_patch = patches_;
@@ -135,11 +135,11 @@ SplineReport SplineList<S>::finish(PreparedSpline<S> spline) {
 }
 
 template <typename S>
-SplineReport SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
+Report SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
   splines_.reserve(surfaces.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (SplineReport report = add(surfaces[k]); !report) {
-      report.surface = k;
+    if (Report report = add(surfaces[k]); !report) {
+      report.item = k;
       return report;
     }
   }
@@ -147,12 +147,12 @@ SplineReport SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) 
 }
 
 template <typename S>
-SplineReport SplineList<S>::prepare(const SplineCurve<S>& curve) {
+Report SplineList<S>::prepare(const SplineCurve<S>& curve) {
   const SplineSurface<S> surface = as_surface(curve);
   const auto u = std::make_shared<SplineFactors>();
   std::size_t knot = 0;
   if (const Status status = u->build(axis_of(surface, 0), knot); !status) {
-    return {status, 0, knot, 0};
+    return {status, 0, static_cast<std::ptrdiff_t>(knot), 0};
   }
   const auto v = std::make_shared<SplineFactors>();
   v->build_point();

@@ -62,8 +62,8 @@ class SplineList {
 public:
   /// Checks the splines and prepares them; the report names the first one at fault. May throw
   /// std::bad_alloc.
-  [[nodiscard]] SplineReport prepare(std::span<const SplineSurface<S>> surfaces);
-  [[nodiscard]] SplineReport prepare(const SplineCurve<S>& curve);
+  [[nodiscard]] Report prepare(std::span<const SplineSurface<S>> surfaces);
+  [[nodiscard]] Report prepare(const SplineCurve<S>& curve);
 
   [[nodiscard]] const std::vector<PreparedSpline<S>>& splines() const noexcept { return splines_; }
   [[nodiscard]] std::size_t patches() const noexcept { return patches_; }
@@ -81,8 +81,8 @@ public:
   [[nodiscard]] std::size_t scratch_bytes() const noexcept;
 
 private:
-  [[nodiscard]] SplineReport add(const SplineSurface<S>& surface);
-  [[nodiscard]] SplineReport finish(PreparedSpline<S> spline);
+  [[nodiscard]] Report add(const SplineSurface<S>& surface);
+  [[nodiscard]] Report finish(PreparedSpline<S> spline);
 
   std::vector<PreparedSpline<S>> splines_;
   std::size_t patches_ = 0;

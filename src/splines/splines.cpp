@@ -42,7 +42,8 @@ Status check_cut(const SplineList<T>& list, const MutableNets<T>& out) noexcept 
 
 /// Writes all nets; `out` is sound.
 template <typename T>
-Status cut_all(const SplineList<T>& list, const NetView<T>& out, const Options& options) noexcept {
+Status cut_all(const SplineList<T>& list, const NetView<T>& out,
+               const RunOptions& options) noexcept {
   Isa isa = Isa::automatic;
   if (const Status status = resolve_isa(options.isa, isa); !status) {
     return status;
@@ -62,15 +63,15 @@ Status cut_all(const SplineList<T>& list, const NetView<T>& out, const Options& 
 }
 
 template <typename T>
-SplineReport cut_surfaces(std::span<const SplineSurface<T>> surfaces, const MutableNets<T>& out,
-                          std::span<PatchInterval> intervals, const Options& options) {
+Report cut_surfaces(std::span<const SplineSurface<T>> surfaces, const MutableNets<T>& out,
+                    std::span<PatchInterval> intervals, const RunOptions& options) {
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     if (const Status status = check_fits(surfaces[k], out); !status) {
       return {status, k};
     }
   }
   SplineList<T> list;
-  if (const SplineReport report = list.prepare(surfaces); !report) {
+  if (const Report report = list.prepare(surfaces); !report) {
     return report;
   }
   if (!intervals.empty() && intervals.size() != list.patches()) {
@@ -87,10 +88,10 @@ SplineReport cut_surfaces(std::span<const SplineSurface<T>> surfaces, const Muta
 }
 
 template <typename T>
-SplineReport cut_curve(const SplineCurve<T>& curve, const Values<T>& points,
-                       std::span<Interval> intervals, const Options& options) {
+Report cut_curve(const SplineCurve<T>& curve, const Values<T>& points,
+                 std::span<Interval> intervals, const RunOptions& options) {
   SplineList<T> list;
-  if (const SplineReport report = list.prepare(curve); !report) {
+  if (const Report report = list.prepare(curve); !report) {
     return report;
   }
   const PreparedSpline<T>& spline = list.splines().front();
@@ -132,9 +133,9 @@ SplineReport cut_curve(const SplineCurve<T>& curve, const Values<T>& points,
 } // namespace detail
 
 template <typename T>
-SplineReport to_bezier(std::span<const SplineSurface<T>> surfaces,
-                       const std::type_identity_t<MutableNets<T>>& out,
-                       std::span<PatchInterval> intervals, const Options& options) noexcept {
+Report to_bezier(std::span<const SplineSurface<T>> surfaces,
+                 const std::type_identity_t<MutableNets<T>>& out,
+                 std::span<PatchInterval> intervals, const RunOptions& options) noexcept {
   if (surfaces.data() == nullptr && !surfaces.empty()) {
     return {Status::null_input};
   }
@@ -144,29 +145,28 @@ SplineReport to_bezier(std::span<const SplineSurface<T>> surfaces,
 }
 
 template <typename T>
-SplineReport to_bezier(const SplineSurface<T>& surface,
-                       const std::type_identity_t<MutableNets<T>>& out,
-                       std::span<PatchInterval> intervals, const Options& options) noexcept {
+Report to_bezier(const SplineSurface<T>& surface, const std::type_identity_t<MutableNets<T>>& out,
+                 std::span<PatchInterval> intervals, const RunOptions& options) noexcept {
   return to_bezier(std::span<const SplineSurface<T>>(&surface, 1), out, intervals, options);
 }
 
 template <typename T>
-SplineReport to_bezier(const SplineCurve<T>& curve, const std::type_identity_t<Values<T>>& points,
-                       std::span<Interval> intervals, const Options& options) noexcept {
+Report to_bezier(const SplineCurve<T>& curve, const std::type_identity_t<Values<T>>& points,
+                 std::span<Interval> intervals, const RunOptions& options) noexcept {
   const detail::DefaultFpEnvironment environment;
   return detail::guarded([&] { return detail::cut_curve<T>(curve, points, intervals, options); });
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API SplineReport to_bezier(                                                  \
-      std::span<const SplineSurface<T>>, const std::type_identity_t<MutableNets<T>>&,              \
-      std::span<PatchInterval>, const Options&) noexcept;                                          \
-  template SIMDBEZIER_API SplineReport to_bezier(                                                  \
-      const SplineSurface<T>&, const std::type_identity_t<MutableNets<T>>&,                        \
-      std::span<PatchInterval>, const Options&) noexcept;                                          \
-  template SIMDBEZIER_API SplineReport to_bezier(const SplineCurve<T>&,                            \
-                                                 const std::type_identity_t<Values<T>>&,           \
-                                                 std::span<Interval>, const Options&) noexcept;
+  template SIMDBEZIER_API Report to_bezier(std::span<const SplineSurface<T>>,                      \
+                                           const std::type_identity_t<MutableNets<T>>&,            \
+                                           std::span<PatchInterval>, const RunOptions&) noexcept;  \
+  template SIMDBEZIER_API Report to_bezier(const SplineSurface<T>&,                                \
+                                           const std::type_identity_t<MutableNets<T>>&,            \
+                                           std::span<PatchInterval>, const RunOptions&) noexcept;  \
+  template SIMDBEZIER_API Report to_bezier(const SplineCurve<T>&,                                  \
+                                           const std::type_identity_t<Values<T>>&,                 \
+                                           std::span<Interval>, const RunOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

@@ -82,8 +82,8 @@ bool channel_is_finite(const PatchStorage<T>& storage, std::size_t place, std::s
 /// is its number in the set. Weights are looked at first, since they are in all coefficients, then
 /// every component's control points before its coefficients.
 template <typename T, typename S>
-PackReport inspect(const ControlNets<S>& nets, std::size_t patch, const PatchStorage<T>& storage,
-                   std::size_t place, std::size_t number) {
+Report inspect(const ControlNets<S>& nets, std::size_t patch, const PatchStorage<T>& storage,
+               std::size_t place, std::size_t number) {
   const auto components = static_cast<std::size_t>(nets.components);
   if (storage.shape.rational) {
     const int point = ChannelView<S>(nets, patch, components).first_not(is_weight<T, S>);

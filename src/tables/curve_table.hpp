@@ -1,7 +1,7 @@
 // The contract between the base code and the kernels for curves.
 #pragma once
 
-#include <simdbezier/curves.hpp>
+#include <simdbezier/outputs.hpp>
 
 #include "src/storage/curve_shape.hpp"
 #include "src/tables/kernel_table.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include <simdbezier/partial_derivative.hpp>
+#include <simdbezier/outputs.hpp>
 
 #include "src/storage/patch_arrays.hpp"
 

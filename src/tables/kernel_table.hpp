@@ -6,9 +6,9 @@
 #include <type_traits>
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/instruction_set.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/outputs.hpp>
-#include <simdbezier/sample_status.hpp>
+#include <simdbezier/status.hpp>
 
 #include "src/storage/patch_arrays.hpp"
 #include "src/tables/grid_strategy.hpp"

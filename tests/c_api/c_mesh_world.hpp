@@ -8,11 +8,12 @@ namespace simdbezier::tests {
 
 struct MeshWorld : World {
   MeshWorld() {
-    rates.nu = nu;
-    rates.nv = nv;
+    rates.cells_u = nu;
+    rates.cells_v = nv;
     rates.diagonals = diagonals;
     rates.deviation = deviation;
-    rates.nu_length = rates.nv_length = rates.diagonals_length = rates.deviation_length = 2;
+    rates.cells_u_length = rates.cells_v_length = rates.diagonals_length = rates.deviation_length =
+        2;
     rate_options.tolerance = 0.5;
     mesh_options.tolerance = 0.5;
     EXPECT_C_OK(simdbezier_find_topology(&nets, 1, nullptr, &topology));

@@ -41,11 +41,11 @@ class CMesh : public CModel<T> {
 protected:
   void SetUp() override {
     CModel<T>::SetUp();
-    rates_.nu = nu_.data();
-    rates_.nv = nv_.data();
+    rates_.cells_u = nu_.data();
+    rates_.cells_v = nv_.data();
     rates_.diagonals = diagonals_.data();
     rates_.deviation = deviation_.data();
-    rates_.nu_length = rates_.nv_length = 20;
+    rates_.cells_u_length = rates_.cells_v_length = 20;
     rates_.diagonals_length = rates_.deviation_length = 20;
     auto options = sized<simdbezier_rate_options>();
     options.tolerance = 1e-3;

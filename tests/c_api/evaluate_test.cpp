@@ -258,11 +258,10 @@ TYPED_TEST(CEvaluation, TellsWhichKernelRan) {
   ASSERT_EQ(isas.size(), available_isas().size());
   for (const simdbezier_isa isa : isas) {
     auto options = sized<simdbezier_options>();
-    simdbezier_isa executed = SIMDBEZIER_ISA_AUTOMATIC;
     options.isa = isa;
-    options.executed = &executed;
     EXPECT_C_OK(simdbezier_evaluate_grid(this->c_set_.get(), &grid, &out, &options));
-    EXPECT_EQ(executed, isa) << simdbezier_isa_name(isa);
+    EXPECT_EQ(simdbezier_take_executed_isa(), isa) << simdbezier_isa_name(isa);
+    EXPECT_EQ(simdbezier_take_executed_isa(), SIMDBEZIER_ISA_AUTOMATIC) << "no call since then";
     simdbezier_isa named = SIMDBEZIER_ISA_AUTOMATIC;
     EXPECT_C_OK(simdbezier_isa_from_name(simdbezier_isa_name(isa), &named));
     EXPECT_EQ(named, isa);

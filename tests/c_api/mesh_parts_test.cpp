@@ -1,7 +1,7 @@
 // Parts of a model through simdbezier.h: the values of the C++ calls.
 #include <cstring>
 
-#include <simdbezier/mesh_parts.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "tests/c_api/c_mesh_world.hpp"
 #include "tests/c_api/c_model.hpp"

@@ -14,7 +14,7 @@ protected:
   ControlNets<T> nets_ = ControlNets<T>::packed(values_, 3, 2);
   simdbezier_nets c_nets_ = c_nets(values_, 3, 2);
 
-  using Call = std::function<NetReport(const MutableNets<T>&)>;
+  using Call = std::function<Report(const MutableNets<T>&)>;
   using CCall = std::function<simdbezier_status(const simdbezier_mutable_nets*)>;
 
   /// One operation with one output of the given degrees.
@@ -41,7 +41,7 @@ TYPED_TEST(CNets, BecomeOtherNets) {
   struct Case {
     int degree_u;
     int degree_v;
-    std::function<NetReport(Out)> call;
+    std::function<Report(Out)> call;
     std::function<simdbezier_status(COut)> c_call;
   };
   const Case cases[] = {

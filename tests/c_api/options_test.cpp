@@ -110,33 +110,34 @@ struct Case {
 /// The options that are set refer to the tolerances and the camera.
 std::vector<Case> option_cases(const std::vector<double>& tolerances,
                                const simdbezier_camera& camera) {
-  return {{"none", [](auto&) {}, [](auto&) {}},
-          {"tolerance", [](auto& o) { o.tolerance = 1e-3; }, [](auto& o) { o.tolerance = 1e-3; }},
-          {"relative", [](auto& o) { o.relative_tolerance = 1e-3; },
-           [](auto& o) { o.relative_tolerance = 1e-3; }},
-          {"tolerances", [&](auto& o) { o.tolerances = tolerances; },
-           [&](auto& o) { o.tolerances = tolerances.data(), o.tolerances_length = 4; }},
-          {"pixels",
-           [](auto& o) {
-             o.pixels = 0.01, o.camera.eye = {0, 0, 30}, o.camera.focal_length = 10;
-           },
-           [&](auto& o) { o.pixels = 0.01, o.camera = &camera; }},
-          {"longest_edge", [](auto& o) { o.longest_edge = 0.5; },
-           [](auto& o) { o.longest_edge = 0.5; }},
-          {"normal_angle", [](auto& o) { o.normal_angle = 0.05; },
-           [](auto& o) { o.normal_angle = 0.05; }},
-          {"grid", [](auto& o) { o.tolerance = MeshOptions().tolerance, o.nu = 4, o.nv = 6; },
-           [](auto& o) { o.tolerance = 0, o.nu = 4, o.nv = 6; }},
-          {"snap", [](auto& o) { o.snap = 0.1; }, [](auto& o) { o.snap = 0.1; }},
-          {"orient", [](auto& o) { o.snap = 0.1, o.orient = true; },
-           [](auto& o) { o.snap = 0.1, o.orient = 1; }},
-          {"flip", [](auto& o) { o.flip = true; }, [](auto& o) { o.flip = 1; }},
-          {"drop_repeated", [](auto& o) { o.drop_repeated = true; },
-           [](auto& o) { o.drop_repeated = 1; }},
-          {"unshared", [](auto& o) { o.crease_angle = 0; }, [](auto& o) { o.unshared = 1; }},
-          {"no_normals", [](auto& o) { o.normals = false; }, [](auto& o) { o.no_normals = 1; }},
-          {"short_indices", [](auto& o) { o.short_indices = true; },
-           [](auto& o) { o.short_indices = 1; }}};
+  return {
+      {"none", [](auto&) {}, [](auto&) {}},
+      {"tolerance", [](auto& o) { o.rates.tolerance = 1e-3; }, [](auto& o) { o.tolerance = 1e-3; }},
+      {"relative", [](auto& o) { o.relative_tolerance = 1e-3; },
+       [](auto& o) { o.relative_tolerance = 1e-3; }},
+      {"tolerances", [&](auto& o) { o.rates.tolerances = tolerances; },
+       [&](auto& o) { o.tolerances = tolerances.data(), o.tolerances_length = 4; }},
+      {"pixels",
+       [](auto& o) {
+         o.pixels = 0.01, o.camera.eye = {0, 0, 30}, o.camera.focal_length = 10;
+       },
+       [&](auto& o) { o.pixels = 0.01, o.camera = &camera; }},
+      {"longest_edge", [](auto& o) { o.rates.longest_edge = 0.5; },
+       [](auto& o) { o.longest_edge = 0.5; }},
+      {"normal_degrees", [](auto& o) { o.rates.normal_degrees = 3; },
+       [](auto& o) { o.normal_degrees = 3; }},
+      {"grid", [](auto& o) { o.rates = {}, o.nu = 4, o.nv = 6; },
+       [](auto& o) { o.tolerance = 0, o.nu = 4, o.nv = 6; }},
+      {"snap", [](auto& o) { o.topology.snap = 0.1; }, [](auto& o) { o.snap = 0.1; }},
+      {"orient", [](auto& o) { o.topology.snap = 0.1, o.topology.orient = true; },
+       [](auto& o) { o.snap = 0.1, o.orient = 1; }},
+      {"flip", [](auto& o) { o.topology.flip = true; }, [](auto& o) { o.flip = 1; }},
+      {"drop_repeated", [](auto& o) { o.drop_repeated = true; },
+       [](auto& o) { o.drop_repeated = 1; }},
+      {"unshared", [](auto& o) { o.share_vertices = false; }, [](auto& o) { o.unshared = 1; }},
+      {"no_normals", [](auto& o) { o.normals = false; }, [](auto& o) { o.no_normals = 1; }},
+      {"short_indices", [](auto& o) { o.short_indices = true; },
+       [](auto& o) { o.short_indices = 1; }}};
 }
 
 TEST(CMeshOptions, AreThoseOfCpp) {
@@ -149,7 +150,7 @@ TEST(CMeshOptions, AreThoseOfCpp) {
   std::vector<Found> different;
   for (const Case& one : option_cases(tolerances, camera)) {
     MeshOptions options;
-    options.tolerance = 0.1;
+    options.rates.tolerance = 0.1;
     one.set(options);
     auto c_options = sized<simdbezier_mesh_options>();
     c_options.tolerance = 0.1;

@@ -33,7 +33,7 @@ struct Plans {
   Plans(const simdbezier_nets& given, std::span<const T> values, bool drop) {
     const std::vector<ControlNets<T>> nets(2, ControlNets<T>::packed(values));
     MeshOptions options;
-    options.tolerance = 1e-3;
+    options.rates.tolerance = 1e-3;
     options.drop_repeated = drop;
     plan = plan_mesh<T>(std::span<const ControlNets<T>>(nets), options);
     mesh = tessellate<T>(std::span<const ControlNets<T>>(nets), options);
@@ -66,8 +66,8 @@ TYPED_TEST(CMesh, HasAPlan) {
     const auto same = [&](const auto* got, const auto& expected) {
       return got != nullptr && std::equal(expected.begin(), expected.end(), got);
     };
-    EXPECT_TRUE(same(of.parts.nu, of.plan.nu));
-    EXPECT_TRUE(same(of.parts.nv, of.plan.nv));
+    EXPECT_TRUE(same(of.parts.cells_u, of.plan.cells_u));
+    EXPECT_TRUE(same(of.parts.cells_v, of.plan.cells_v));
     EXPECT_TRUE(same(of.parts.deviations, of.plan.deviations));
     EXPECT_EQ(of.parts.patches != nullptr, drop);
     EXPECT_TRUE(!drop || same(of.parts.patches, of.plan.patches));

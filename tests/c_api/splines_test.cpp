@@ -185,7 +185,7 @@ TYPED_TEST(CSplines, BecomeMeshes) {
   auto parts = sized<simdbezier_mesh_plan_parts>();
   EXPECT_C_OK(simdbezier_mesh_look(mesh, &arrays));
   EXPECT_C_OK(simdbezier_mesh_plan_look(plan, &parts));
-  const Mesh<T> same = tessellate<T>(this->same_, {.tolerance = 1e-3});
+  const Mesh<T> same = tessellate<T>(this->same_, {.rates = {.tolerance = 1e-3}});
   ASSERT_TRUE(same);
   ASSERT_EQ(arrays.vertices, same.positions.size());
   EXPECT_EQ(std::memcmp(arrays.positions, same.positions.data(), 3 * arrays.vertices * sizeof(T)),

@@ -45,13 +45,12 @@ void compare(const PatchSet<T>& set, std::size_t nu, std::size_t nv, Wanted want
   for (int call = 0; call < 3; ++call) {
     for (const int threads : {1, 3}) {
       Planes<T> found(samples, wanted);
-      Isa executed = Isa::automatic;
       options = {};
       options.threads = threads;
-      options.executed = &executed;
       ASSERT_EQ(evaluate(set, grid, found.outputs(), options), Status::ok);
       EXPECT_EQ(differing_values(found, expected), 0U)
           << nu << " x " << nv << ", call " << call << ", " << threads << " threads";
+      const Isa executed = take_executed_isa();
       EXPECT_TRUE(may_run(executed)) << to_string(executed);
     }
   }
@@ -81,12 +80,9 @@ TEST(AutomaticIsa, leaves_small_calls_to_the_widest_one) {
     const PatchSet<float> set = packed<float>(wavy_nets(call.patches));
     for (int repeat = 0; repeat < 3; ++repeat) {
       Planes<float> found(call.patches * call.size * call.size);
-      Isa executed = Isa::automatic;
-      Options options;
-      options.executed = &executed;
       const Grid<float> grid = Grid<float>::uniform(call.size, call.size);
-      ASSERT_EQ(evaluate(set, grid, found.outputs(), options), Status::ok);
-      EXPECT_EQ(executed, resolved()) << call.patches << " of " << call.size;
+      ASSERT_EQ(evaluate(set, grid, found.outputs()), Status::ok);
+      EXPECT_EQ(take_executed_isa(), resolved()) << call.patches << " of " << call.size;
     }
   }
 }

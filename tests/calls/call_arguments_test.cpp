@@ -201,7 +201,7 @@ TEST(Pack, refuses_what_it_cannot_pack_and_keeps_the_old_set) {
   for (const PackCase& c : cases) {
     PatchSet<float> set;
     ASSERT_TRUE(pack(nets(), set));
-    const PackReport report = pack(c.nets, set);
+    const Report report = pack(c.nets, set);
     EXPECT_EQ(to_string(report.status), to_string(c.status)) << c.name;
     EXPECT_EQ(set.size(), 2U) << c.name;
   }
@@ -212,9 +212,9 @@ void expect_report(T value, std::size_t at, Status status) {
   std::vector<T> points(5 * 48, T(1));
   points[at] = value;
   PatchSet<T> set;
-  const PackReport report = pack(ControlNets<T>{points.data(), 5}, set);
+  const Report report = pack(ControlNets<T>{points.data(), 5}, set);
   EXPECT_EQ(to_string(report.status), to_string(status));
-  EXPECT_EQ(report.patch, at / 48);
+  EXPECT_EQ(report.item, at / 48);
   EXPECT_EQ(report.component, static_cast<int>(at % 3));
   if (status == Status::non_finite_input) {
     EXPECT_EQ(report.point, static_cast<int>(at % 48 / 3));
@@ -236,7 +236,7 @@ TEST(Pack, doubles_that_exceed_float_are_an_overflow) {
   std::vector<double> points(48, 1.0);
   points[7] = 1e300;
   PatchSet<float> set;
-  const PackReport report = pack(ControlNets<double>{points.data(), 1}, set);
+  const Report report = pack(ControlNets<double>{points.data(), 1}, set);
   EXPECT_EQ(to_string(report.status), to_string(Status::coefficient_overflow));
   EXPECT_EQ(report.component, 1);
 }

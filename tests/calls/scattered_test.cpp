@@ -260,16 +260,14 @@ protected:
                          : Vectors<T>{at, at + 1, at + 2, static_cast<std::ptrdiff_t>(stride), few};
               }
             }
-            Isa executed = Isa::automatic;
             Options options;
             options.isa = this->isa();
-            options.executed = &executed;
             ASSERT_EQ(evaluate(*set,
                                Samples<T>{all.patch.subspan(first, few), all.u.subspan(first, few),
                                           all.v.subspan(first, few), all.parameters},
                                out, options),
                       Status::ok);
-            EXPECT_EQ(executed, this->isa());
+            EXPECT_EQ(take_executed_isa(), this->isa());
             at = memory.data();
             for (std::size_t g = 0; g < kGroups; ++g, at += values + kAfter) {
               std::vector<T> expected(values + kAfter, Results<T>::kUntouched);

@@ -149,12 +149,12 @@ TEST(CurvePacking, RefusesWhatItCannotPack) {
   const auto other = random_curves<float>(1, 2, 2, 0, 1);
   CurveSet<float> set;
   ASSERT_TRUE(pack(other.view(), set));
-  const auto refused = [&](const CurveBatch<float>& batch, PackReport expected, auto change) {
+  const auto refused = [&](const CurveBatch<float>& batch, Report expected, auto change) {
     auto view = batch.view();
     change(view);
-    const PackReport report = pack(view, set);
+    const Report report = pack(view, set);
     EXPECT_EQ(to_string(report.status), to_string(expected.status));
-    EXPECT_EQ(report.patch, expected.patch);
+    EXPECT_EQ(report.item, expected.item);
     EXPECT_EQ(report.point, expected.point);
     EXPECT_EQ(report.component, expected.component);
     EXPECT_EQ(set.degree(), 2) << "the set was changed";
@@ -189,9 +189,9 @@ TEST(CurvePacking, RefusesWhatItCannotPack) {
   // A weight that is positive in double and zero in float.
   auto tiny = random_curves<double>(2, 3, 3, 5, 1);
   tiny.at(1, 2, 3) = 1e-60;
-  const PackReport report = pack(tiny.view(), set);
+  const Report report = pack(tiny.view(), set);
   EXPECT_EQ(to_string(report.status), to_string(Status::bad_weight));
-  EXPECT_EQ(report.patch, 1U);
+  EXPECT_EQ(report.item, 1U);
   PackOptions moved;
   moved.relative_to[1] = INFINITY;
   EXPECT_EQ(pack(good.view(), set, moved).component, 1);

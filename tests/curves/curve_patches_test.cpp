@@ -14,7 +14,7 @@ protected:
   void boundaries(const NetBatch<S>& nets, const PackOptions& options) {
     constexpr std::size_t kSamples = 19;
     PatchSet<T> patches;
-    const PackReport report = pack(nets.view(), patches, options);
+    const Report report = pack(nets.view(), patches, options);
     ASSERT_TRUE(report);
     const std::size_t plane = nets.count * kSamples * kSamples;
     std::vector<T> values(3 * plane);
@@ -46,7 +46,7 @@ protected:
   template <typename T, typename S>
   void iso_curves(const NetBatch<S>& nets) {
     PatchSet<T> patches;
-    const PackReport report = pack(nets.view(), patches);
+    const Report report = pack(nets.view(), patches);
     ASSERT_TRUE(report);
     constexpr std::size_t kSamples = 7;
     const T t[kSamples] = {T(0), T(0.125), T(0.375), T(0.5), T(0.6875), T(0.9375), T(1)};

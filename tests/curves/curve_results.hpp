@@ -83,8 +83,8 @@ protected:
   template <typename T, typename S>
   static CurveSet<T> packed(const CurveBatch<S>& batch, const PackOptions& options = {}) {
     CurveSet<T> set;
-    const PackReport report = pack(batch.view(), set, options);
-    EXPECT_TRUE(report) << to_string(report.status) << " curve " << report.patch << " point "
+    const Report report = pack(batch.view(), set, options);
+    EXPECT_TRUE(report) << to_string(report.status) << " curve " << report.item << " point "
                         << report.point << " component " << report.component;
     return set;
   }

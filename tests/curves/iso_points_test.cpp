@@ -97,11 +97,11 @@ TEST(IsoPoints, RefuseBadInput) {
   nets.points[5] = NAN;
   refused(Status::non_finite_input, nets.view(), 0.5, points.data());
   CurveSet<float> set;
-  const PackReport report = iso_u(nets.view(), 0.5, set);
+  const Report report = iso_u(nets.view(), 0.5, set);
   EXPECT_EQ(to_string(report.status), to_string(Status::non_finite_input));
   EXPECT_EQ(report.point, 1);
   EXPECT_EQ(report.component, 1);
-  const PackReport parameter = iso_u(nets.view(), NAN, set);
+  const Report parameter = iso_u(nets.view(), NAN, set);
   EXPECT_EQ(to_string(parameter.status), to_string(Status::non_finite_input));
   EXPECT_EQ(parameter.point, -1);
 }

@@ -1,7 +1,7 @@
 // The model of a ball, for tests that need normals in all directions.
 #pragma once
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 #include "tests/mesh/evaluated_mesh.hpp"
 

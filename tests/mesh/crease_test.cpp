@@ -42,8 +42,8 @@ MeshModel bulged_cube() {
 }
 
 template <typename T>
-void split(EvaluatedMesh<T>& mesh, double angle) {
-  ASSERT_EQ(split_creases(mesh.set, mesh.layout, angle, mesh.layout), Status::ok);
+void split(EvaluatedMesh<T>& mesh, double degrees) {
+  ASSERT_EQ(split_creases(mesh.set, mesh.layout, degrees, mesh.layout), Status::ok);
 }
 
 struct Angle {
@@ -70,7 +70,7 @@ TEST(Creases, split_where_planes_meet_at_more_than_the_angle) {
       mesh.evaluate_all();
       const std::vector<std::array<double, 3>> position = mesh.position;
       const std::vector<std::uint32_t> before = mesh.triangles;
-      split(mesh, angle.crease * std::numbers::pi / 180);
+      split(mesh, angle.crease);
       EXPECT_EQ(mesh.layout.size().vertices > whole, angle.splits);
       EXPECT_EQ(mesh.layout.size().triangles, triangles);
       mesh.evaluate_all();
@@ -108,7 +108,7 @@ TEST(Creases, of_small_angles_leave_planes_whole) {
           }
           EvaluatedMesh<float> mesh(model, 5, 2);
           const std::size_t whole = mesh.layout.size().vertices;
-          split(mesh, crease);
+          split(mesh, crease * 180 / std::numbers::pi);
           EXPECT_EQ(mesh.layout.size().vertices > whole, rise > 0);
           ++planes;
         }
@@ -163,12 +163,11 @@ TEST(Creases, of_the_cube_are_its_edges) {
   // Faces bulge, so that normals at edges differ by less than a right angle: 66 degrees and less.
   for (const auto& [degrees, vertices] :
        std::map<double, std::size_t>{{20, 6 * 25}, {89, 98}, {180, 98}, {1000, 98}}) {
-    ASSERT_EQ(split_creases(mesh.set, whole, degrees * std::numbers::pi / 180, mesh.layout),
-              Status::ok);
+    ASSERT_EQ(split_creases(mesh.set, whole, degrees, mesh.layout), Status::ok);
     EXPECT_EQ(mesh.layout.size().vertices, vertices) << degrees;
   }
   // A layout that is split may be split anew.
-  split(mesh, 20 * std::numbers::pi / 180);
+  split(mesh, 20);
   split(mesh, 3.2);
   EXPECT_EQ(mesh.layout.size().vertices, 98U);
 }

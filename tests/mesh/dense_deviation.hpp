@@ -43,8 +43,8 @@ double farthest_sample(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Surfa
   }
   double worst = 0;
   std::size_t nearest = 0; // of the sample before: the search begins there
-  const std::uint32_t nu = in_cell * plan.nu[p];
-  const std::uint32_t nv = in_cell * plan.nv[p];
+  const std::uint32_t nu = in_cell * plan.cells_u[p];
+  const std::uint32_t nv = in_cell * plan.cells_v[p];
   for (std::uint32_t k = 0; k < (nu + 1) * (nv + 1); ++k) {
     const Point x =
         surface(static_cast<double>(k % (nu + 1)) / nu, static_cast<double>(k / (nu + 1)) / nv);
@@ -80,11 +80,12 @@ double farthest_from_surface(const MeshPlan<T>& plan, const Mesh<T>& mesh, const
     return (k / kInCell + t * t * (3 - 2 * t)) / n;
   };
   std::vector<Piece> pieces;
-  for (std::uint32_t j = 0; j < kInCell * plan.nv[p]; ++j) {
-    for (std::uint32_t i = 0; i < kInCell * plan.nu[p]; ++i) {
+  for (std::uint32_t j = 0; j < kInCell * plan.cells_v[p]; ++j) {
+    for (std::uint32_t i = 0; i < kInCell * plan.cells_u[p]; ++i) {
       Piece piece{{}, 0};
       for (std::uint32_t k = 0; k < 4; ++k) {
-        piece.at[k] = surface(parameter(i + k % 2, plan.nu[p]), parameter(j + k / 2, plan.nv[p]));
+        piece.at[k] =
+            surface(parameter(i + k % 2, plan.cells_u[p]), parameter(j + k / 2, plan.cells_v[p]));
         piece.size = std::max(
             piece.size,
             std::sqrt(squared_distance(piece.at[k], {piece.at[0], piece.at[0], piece.at[0]})));

@@ -49,13 +49,13 @@ void expect_certified(const std::vector<PatchPoints>& patches, double relative,
   options.local_origin = true;
   const auto nets = ControlNets<T>::packed(std::span<const T>(values));
   const MeshPlan<T> plan = plan_mesh<T>(nets, options);
-  if (std::is_same_v<T, float> && plan.status == Status::bad_tolerance) {
+  if (std::is_same_v<T, float> && plan.report.status == Status::bad_tolerance) {
     EXPECT_LT(relative, 1e-5) << "a few roundings of a float are more than this only";
     return;
   }
-  ASSERT_EQ(plan.status, Status::ok) << "patch " << plan.fault_patch;
+  ASSERT_EQ(plan.report.status, Status::ok) << "patch " << plan.report.item;
   const Mesh<T> mesh = tessellate<T>(nets, options);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   EXPECT_LE(mesh.deviation, relative * plan.diagonal);
   double found = 0;
   for (std::size_t k = 0; k < samples_of; ++k) {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <simdbezier/evaluate_mesh.hpp>
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/adjacency.hpp>
 #include <simdbezier/rates.hpp>
 #include <simdbezier/topology.hpp>
 
@@ -34,14 +33,14 @@ struct Frame {
     return ControlNets<T>::packed(values.data(), patches, 3, 3);
   }
   /// What choose_rates() says of the nets as they are.
-  [[nodiscard]] RateReport report() const {
+  [[nodiscard]] Report report() const {
     std::vector<std::uint32_t> nu(patches);
     std::vector<std::uint32_t> nv(patches);
     std::vector<std::uint16_t> diagonals(patches);
     const CertifiedRates rates{nu, nv, diagonals, {}};
     RateOptions options;
     options.tolerance = 0.1;
-    const RateReport chosen = choose_rates(nets(), topology, options, rates);
+    const Report chosen = choose_rates(nets(), topology, options, rates);
     EXPECT_EQ(chosen.status == Status::bad_topology,
               certify_rates(nets(), topology, {}, rates).status == Status::bad_topology);
     return chosen;
@@ -109,10 +108,10 @@ TYPED_TEST(Fits, no_nets_in_which_a_joined_side_has_come_apart) {
       const TypeParam before = value;
       value = std::nextafter(value, std::numeric_limits<TypeParam>::max());
       EXPECT_EQ(fits(frame.topology, frame.nets()), !joined);
-      const RateReport report = frame.report();
+      const Report report = frame.report();
       EXPECT_EQ(report.status == Status::bad_topology, joined);
       if (joined) {
-        EXPECT_LT(report.patch, frame.patches);
+        EXPECT_LT(report.item, frame.patches);
       }
       value = before;
     }

@@ -96,7 +96,7 @@ TYPED_TEST(Flatten, polylines_are_as_close_as_certified) {
     for (const double tolerance : {1.0, 0.1, 1e-3}) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", tolerance " + std::to_string(tolerance));
       const Polylines<T> lines = flatten<T>(curve.curves(), tolerance);
-      ASSERT_EQ(lines.status, Status::ok);
+      ASSERT_EQ(lines.report.status, Status::ok);
       EXPECT_LE(lines.deviation, tolerance);
       ASSERT_EQ(lines.first.size(), 4U);
       EXPECT_EQ(lines.first.back(), lines.points.size());
@@ -155,9 +155,9 @@ TEST(FlattenSizes, bad_input_is_a_status) {
     EXPECT_EQ(status({tolerance}), Status::bad_tolerance);
   }
   const std::array<double, 2> errors = {0, 0.1};
-  const FlattenReport report = choose_polylines(curve.curves(), {0.1, {}, errors}, points, {});
+  const Report report = choose_polylines(curve.curves(), {0.1, {}, errors}, points, {});
   EXPECT_EQ(report.status, Status::bad_tolerance);
-  EXPECT_EQ(report.curve, 1U);
+  EXPECT_EQ(report.item, 1U);
   for (const double error : {-1e-3, -1.0, nan}) {
     const std::array<double, 2> impossible = {0, error};
     EXPECT_EQ(status({0.1, {}, impossible}), Status::bad_tolerance) << error;
@@ -176,7 +176,7 @@ TEST(FlattenSizes, bad_input_is_a_status) {
   curve.values[curve.values.size() / 2] = nan;
   const Polylines<float> lines = flatten<float>(curve.curves(), 0.1);
   EXPECT_FALSE(lines);
-  EXPECT_EQ(lines.fault_curve, 1U);
+  EXPECT_EQ(lines.report.item, 1U);
   EXPECT_TRUE(lines.points.empty());
   EXPECT_TRUE(flatten<float>(ControlCurves<double>{}, 0.1));
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 #include "tests/mesh/mesh_oracle.hpp"
 

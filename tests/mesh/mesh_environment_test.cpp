@@ -10,7 +10,7 @@
 
 #include <simdbezier/flatten.hpp>
 #include <simdbezier/mesh.hpp>
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
 #include "tests/support/environment.hpp"
@@ -108,25 +108,25 @@ protected:
     all.push_back(made_by(patches.name + ", pixels", ok, std::span<const double>(found)));
     const Polylines<T> lines = flatten<T>(patches.rows(), 1e-3);
     const std::vector<double> deviation = {lines.deviation};
-    all.push_back(made_by(patches.name + ", polylines", static_cast<bool>(lines.status),
+    all.push_back(made_by(patches.name + ", polylines", static_cast<bool>(lines.report.status),
                           flat<T>(lines.points), std::span<const double>(deviation)));
   }
 
   template <typename T>
   void add_mesh(const Patches<T>& patches, std::vector<Made>& all) {
-    const MeshPlan<T> plan = plan_mesh<T>(patches.nets(), {.relative_tolerance = 1e-3,
-                                                           .normal_angle = 0.5,
-                                                           .snap = 1e-3,
-                                                           .crease_angle = 0.4,
+    const MeshPlan<T> plan = plan_mesh<T>(patches.nets(), {.rates = {.normal_degrees = 29},
+                                                           .relative_tolerance = 1e-3,
+                                                           .topology = {.snap = 1e-3},
+                                                           .crease_degrees = 23,
                                                            .threads = 2,
                                                            .isa = isa()});
     std::vector<double> errors(plan.set.size());
     const bool bounded =
         static_cast<bool>(position_errors(plan.set, std::span(errors), {.isa = isa()}));
-    all.push_back(
-        made_by(patches.name + ", rates", bounded && plan, std::span<const std::uint32_t>(plan.nu),
-                std::span<const std::uint32_t>(plan.nv), std::span<const double>(plan.deviations),
-                std::span<const double>(errors)));
+    all.push_back(made_by(
+        patches.name + ", rates", bounded && plan, std::span<const std::uint32_t>(plan.cells_u),
+        std::span<const std::uint32_t>(plan.cells_v), std::span<const double>(plan.deviations),
+        std::span<const double>(errors)));
     std::vector<std::array<T, 3>> position(plan.layout.size().vertices);
     std::vector<std::array<T, 3>> normal(position.size());
     MeshOutputs<T> out;

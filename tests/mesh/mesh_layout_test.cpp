@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/topology.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
@@ -16,8 +16,8 @@ namespace simdbezier::tests::mesh_layout_test {
 namespace {
 
 struct Rates {
-  std::vector<std::uint32_t> nu;
-  std::vector<std::uint32_t> nv;
+  std::vector<std::uint32_t> cells_u;
+  std::vector<std::uint32_t> cells_v;
   std::vector<std::uint16_t> diagonals;
 };
 
@@ -25,8 +25,8 @@ Rates random_rates(std::size_t patches, std::uint32_t most, unsigned seed) {
   std::mt19937 random(seed);
   Rates rates;
   for (std::size_t p = 0; p < patches; ++p) {
-    rates.nu.push_back(1 + static_cast<std::uint32_t>(random() % most));
-    rates.nv.push_back(1 + static_cast<std::uint32_t>(random() % most));
+    rates.cells_u.push_back(1 + static_cast<std::uint32_t>(random() % most));
+    rates.cells_v.push_back(1 + static_cast<std::uint32_t>(random() % most));
     rates.diagonals.push_back(static_cast<std::uint16_t>(random() % 512));
   }
   return rates;
@@ -43,7 +43,8 @@ Topology topology_of(const std::vector<double>& values, bool orient) {
 
 TriangleCensus census_of(const Topology& topology, const Rates& rates) {
   MeshLayout layout;
-  EXPECT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
+  EXPECT_EQ(lay_out_mesh(topology, {rates.cells_u, rates.cells_v, rates.diagonals}, layout),
+            Status::ok);
   const MeshSize size = layout.size();
   constexpr std::uint32_t kUntouched = 0xabababab;
   std::vector<std::uint32_t> triangles(3 * size.triangles + 1, kUntouched);
@@ -60,7 +61,7 @@ void expect_closed(const MeshModel& model, bool orient, std::uint32_t most, unsi
   const Topology topology = topology_of(values, orient);
   Rates rates = random_rates(model.patches.size(), most, seed);
   std::size_t raised = 0;
-  ASSERT_EQ(separate_vertices(topology, rates.nu, rates.nv, raised), Status::ok);
+  ASSERT_EQ(separate_vertices(topology, rates.cells_u, rates.cells_v, raised), Status::ok);
   const TriangleCensus census = census_of(topology, rates);
   EXPECT_EQ(census.out_of_range, 0);
   EXPECT_EQ(census.degenerate, 0);
@@ -110,7 +111,7 @@ TEST(MeshLayout, is_a_surface_however_sides_are_joined) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", rates to " + std::to_string(most));
       Rates rates = random_rates(gluing.patches, most, seed);
       std::size_t raised = 0;
-      ASSERT_EQ(separate_vertices(topology, rates.nu, rates.nv, raised), Status::ok);
+      ASSERT_EQ(separate_vertices(topology, rates.cells_u, rates.cells_v, raised), Status::ok);
       const TriangleCensus census = census_of(topology, rates);
       EXPECT_EQ(census.out_of_range, 0U);
       EXPECT_EQ(census.degenerate, 0U);
@@ -139,10 +140,10 @@ TEST(MeshLayout, rates_and_their_neighbours_are_counted_exactly) {
   const MeshModel& torus = models[5];
   ASSERT_EQ(torus.name, "torus 1 x 2");
   const Topology topology = topology_of(torus.values(), false);
-  const std::vector<std::uint32_t> nu = {4, 6};
-  const std::vector<std::uint32_t> nv = {2, 2};
+  const std::vector<std::uint32_t> cells_u = {4, 6};
+  const std::vector<std::uint32_t> cells_v = {2, 2};
   MeshLayout layout;
-  ASSERT_EQ(lay_out_mesh(topology, {nu, nv, {}}, layout), Status::ok);
+  ASSERT_EQ(lay_out_mesh(topology, {cells_u, cells_v, {}}, layout), Status::ok);
   // 2 cells a triangle pair, and 4 + 2 further vertices on each of two edges, for two sides.
   EXPECT_EQ(layout.size().triangles, 2U * (4 * 2 + 6 * 2) + 2 * (8 - 4) + 2 * (8 - 6));
   EXPECT_EQ(layout.first_triangle(1), 2U * 8 + 2 * (8 - 4));
@@ -181,7 +182,8 @@ TEST(MeshLayout, numbers_are_the_same_wherever_they_go) {
   for (const unsigned most : {2U, 9U, 80U}) { // one line; some; patches of all kinds
     const Rates rates = random_rates(model.patches.size(), most, 3);
     MeshLayout layout;
-    ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
+    ASSERT_EQ(lay_out_mesh(topology, {rates.cells_u, rates.cells_v, rates.diagonals}, layout),
+              Status::ok);
     ASSERT_LT(layout.size().vertices, 0xabcdU);
     std::vector<std::uint32_t> expected(3 * layout.size().triangles);
     ASSERT_EQ(write_triangles(layout, std::span(expected), {.threads = 1}), Status::ok);
@@ -221,14 +223,15 @@ TEST(MeshLayout, sides_that_are_points_leave_no_triangle_uncounted) {
   for (unsigned sides = 0; sides < 16; ++sides) {
     const Topology topology = topology_of(patch_of_points(sides), false);
     for (std::uint32_t code = 0; code < kMost * kMost * kMost * 2; ++code) {
-      const std::vector<std::uint32_t> nu = {1 + code % kMost, 2};
-      const std::vector<std::uint32_t> nv = {1 + code / kMost % kMost,
-                                             1 + code / kMost / kMost % kMost};
+      const std::vector<std::uint32_t> cells_u = {1 + code % kMost, 2};
+      const std::vector<std::uint32_t> cells_v = {1 + code / kMost % kMost,
+                                                  1 + code / kMost / kMost % kMost};
       const std::uint16_t diagonals = code / kMost / kMost / kMost != 0 ? 511 : 0;
-      SCOPED_TRACE("sides " + std::to_string(sides) + ", rates " + std::to_string(nu[0]) + " x " +
-                   std::to_string(nv[0]) + " beside " + std::to_string(nv[1]));
+      SCOPED_TRACE("sides " + std::to_string(sides) + ", rates " + std::to_string(cells_u[0]) +
+                   " x " + std::to_string(cells_v[0]) + " beside " + std::to_string(cells_v[1]));
       MeshLayout layout;
-      ASSERT_EQ(lay_out_mesh(topology, {nu, nv, std::vector<std::uint16_t>{diagonals, diagonals}},
+      ASSERT_EQ(lay_out_mesh(topology,
+                             {cells_u, cells_v, std::vector<std::uint16_t>{diagonals, diagonals}},
                              layout),
                 Status::ok);
       const std::size_t counted = layout.size().triangles;
@@ -276,11 +279,10 @@ TEST(MeshLayout, bad_input_is_a_status) {
   triangles.resize(3 * layout.size().triangles);
   for (const Isa wanted :
        {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon64, Isa::simd128}) {
-    Isa executed = Isa::automatic;
     const bool runs = std::ranges::count(available_isas(), wanted) > 0;
-    EXPECT_EQ(write_triangles(layout, std::span(triangles), {.isa = wanted, .executed = &executed}),
+    EXPECT_EQ(write_triangles(layout, std::span(triangles), {.isa = wanted}),
               runs ? Status::ok : Status::unsupported_isa);
-    EXPECT_EQ(executed, runs ? wanted : Isa::automatic);
+    EXPECT_EQ(take_executed_isa(), runs ? wanted : Isa::automatic);
   }
   const std::vector<std::uint32_t> many(model.patches.size(), 300);
   ASSERT_EQ(lay_out_mesh(topology, {many, many, {}}, layout), Status::ok);

@@ -27,14 +27,14 @@ TEST(MeshOptions, options_are_followed) {
   const auto nets = ControlNets<double>::packed(std::span<const double>(values));
   const auto mesh_of = [&](const auto& change) {
     MeshOptions options;
-    options.tolerance = 0.01;
+    options.rates.tolerance = 0.01;
     change(options);
     const Mesh<float> mesh = tessellate<float>(nets, options);
-    EXPECT_EQ(mesh.status, Status::ok);
+    EXPECT_EQ(mesh.report.status, Status::ok);
     return mesh;
   };
   const Mesh<float> usual = mesh_of([](auto&) {});
-  const Mesh<float> flipped = mesh_of([](auto& o) { o.flip = true; });
+  const Mesh<float> flipped = mesh_of([](auto& o) { o.topology.flip = true; });
   ASSERT_EQ(usual.triangles.size(), flipped.triangles.size());
   for (std::size_t t = 0; t < usual.triangles.size(); ++t) {
     EXPECT_EQ(usual.triangles[t][1], flipped.triangles[t][2]);
@@ -61,12 +61,17 @@ TEST(MeshOptions, options_are_followed) {
   EXPECT_EQ(uniform.positions.size(), 13U * 7U);
   EXPECT_GT(uniform.deviation, 0);
   const std::vector<double> tolerances(6, 0.002);
-  const Mesh<float> finer = mesh_of([&](auto& o) { o.tolerances = tolerances; });
+  const Mesh<float> finer = mesh_of([&](auto& o) { o.rates.tolerances = tolerances; });
   EXPECT_LE(finer.deviation, 0.002);
   EXPECT_LE(mesh_of([](auto& o) { o.relative_tolerance = 1e-4; }).deviation, 1e-4 * 12.4);
-  const auto split = mesh_of([](auto& o) { o.crease_angle = 0; });
+  const auto split = mesh_of([](auto& o) { o.share_vertices = false; });
   EXPECT_GT(split.positions.size(), usual.positions.size());
   EXPECT_EQ(split.triangles.size(), usual.triangles.size());
+  const std::vector<double> errors(6, 0.004); // of the control points
+  const Mesh<float> wide = mesh_of([&](auto& o) { o.rates.errors = errors; });
+  EXPECT_GE(*std::ranges::min_element(wide.deviations), 0.004);
+  EXPECT_LE(wide.deviation, 0.01);
+  EXPECT_EQ(wide.positions.size() > usual.positions.size(), true) << "less is left for cells";
 }
 
 /// Along rows no edge is longer than asked for, and along columns neighbouring normals enclose no
@@ -81,13 +86,13 @@ TEST(MeshOptions, edges_and_angles_are_as_short_as_asked_for) {
     for (const double most : {0.7, 0.2}) {
       SCOPED_TRACE(model.name);
       MeshOptions options;
-      options.longest_edge = most;
+      options.rates.longest_edge = most;
       const MeshPlan<double> by_length = plan_mesh<double>(nets, options);
-      ASSERT_EQ(by_length.status, Status::ok);
+      ASSERT_EQ(by_length.report.status, Status::ok);
       options = {};
-      options.normal_angle = most;
+      options.rates.normal_degrees = most * 180 / std::numbers::pi;
       const MeshPlan<double> by_angle = plan_mesh<double>(nets, options);
-      ASSERT_EQ(by_angle.status, Status::ok);
+      ASSERT_EQ(by_angle.report.status, Status::ok);
       double longest = 0;
       double widest = 0;
       const auto angle = [](const Point& a, const Point& b) {
@@ -95,13 +100,13 @@ TEST(MeshOptions, edges_and_angles_are_as_short_as_asked_for) {
       };
       for (std::size_t p = 0; p < model.patches.size(); ++p) {
         const PatchPoints& patch = model.patches[p];
-        for (std::uint32_t i = 0; i < by_length.nu[p]; ++i) {
-          const double n = by_length.nu[p];
+        for (std::uint32_t i = 0; i < by_length.cells_u[p]; ++i) {
+          const double n = by_length.cells_u[p];
           longest = std::max(longest,
                              length(surface(patch, (i + 1) / n, 0.3) - surface(patch, i / n, 0.3)));
         }
-        for (std::uint32_t j = 0; j < by_angle.nv[p]; ++j) {
-          const double n = by_angle.nv[p];
+        for (std::uint32_t j = 0; j < by_angle.cells_v[p]; ++j) {
+          const double n = by_angle.cells_v[p];
           widest = std::max(widest, angle(surface_normal(patch, 0.6, (j + 1) / n),
                                           surface_normal(patch, 0.6, j / n)));
         }
@@ -135,7 +140,7 @@ TEST(MeshOptions, pixels_are_those_of_the_camera) {
     options.camera.width = 1000;
     options.camera.height = 1000;
     const MeshPlan<double> plan = plan_mesh<double>(nets, options);
-    ASSERT_EQ(plan.status, Status::ok);
+    ASSERT_EQ(plan.report.status, Status::ok);
     double worst = 0;
     for (std::size_t p = 0; p < model.patches.size(); ++p) {
       double depth = std::numeric_limits<double>::infinity();
@@ -163,7 +168,7 @@ TEST(MeshOptions, deviations_are_those_of_the_instruction_set) {
     options.nu = options.nv = 33;
     options.isa = isa;
     const MeshPlan<float> plan = plan_mesh<float>(nets, options);
-    ASSERT_EQ(plan.status, Status::ok);
+    ASSERT_EQ(plan.report.status, Status::ok);
     std::vector<double> rounding(plan.set.size());
     ASSERT_TRUE(position_errors(plan.set, rounding, {.isa = isa}));
     for (std::size_t p = 0; p < rounding.size(); ++p) {
@@ -217,22 +222,23 @@ struct Refused {
 };
 const Refused kRefused[] = {
     {"nothing asked", Status::bad_tolerance, [](MeshOptions& o) { o = {}; }},
-    {"tolerance 0", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = 0; }},
-    {"tolerance nan", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = kNan; }},
+    {"tolerance 0", Status::bad_tolerance, [](MeshOptions& o) { o.rates.tolerance = 0; }},
+    {"tolerance nan", Status::bad_tolerance, [](MeshOptions& o) { o.rates.tolerance = kNan; }},
     {"relative -1", Status::bad_tolerance, [](MeshOptions& o) { o.relative_tolerance = -1; }},
-    {"too small", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = 1e-9; }},
+    {"too small", Status::bad_tolerance, [](MeshOptions& o) { o.rates.tolerance = 1e-9; }},
     {"pixels 0", Status::bad_tolerance, [](MeshOptions& o) { o.pixels = 0; }},
     {"camera", Status::bad_tolerance,
      [](MeshOptions& o) {
        o.pixels = 1;
        o.camera.direction = {0, 0, 0};
      }},
-    {"edge 0", Status::bad_tolerance, [](MeshOptions& o) { o.longest_edge = 0; }},
-    {"angle nan", Status::bad_tolerance, [](MeshOptions& o) { o.normal_angle = kNan; }},
-    {"crease nan", Status::bad_tolerance, [](MeshOptions& o) { o.crease_angle = kNan; }},
-    {"crease -1", Status::bad_tolerance, [](MeshOptions& o) { o.crease_angle = -1; }},
-    {"snap -1", Status::bad_tolerance, [](MeshOptions& o) { o.snap = -1; }},
-    {"points nan", Status::bad_tolerance, [](MeshOptions& o) { o.point_size = kNan; }},
+    {"edge 0", Status::bad_tolerance, [](MeshOptions& o) { o.rates.longest_edge = 0; }},
+    {"angle nan", Status::bad_tolerance, [](MeshOptions& o) { o.rates.normal_degrees = kNan; }},
+    {"crease nan", Status::bad_tolerance, [](MeshOptions& o) { o.crease_degrees = kNan; }},
+    {"crease 0", Status::bad_tolerance, [](MeshOptions& o) { o.crease_degrees = 0; }},
+    {"crease -1", Status::bad_tolerance, [](MeshOptions& o) { o.crease_degrees = -1; }},
+    {"snap -1", Status::bad_tolerance, [](MeshOptions& o) { o.topology.snap = -1; }},
+    {"points nan", Status::bad_tolerance, [](MeshOptions& o) { o.topology.point_size = kNan; }},
     {"both", Status::bad_grid, [](MeshOptions& o) { o.nu = o.nv = 4; }},
     {"grid of 1", Status::bad_grid,
      [](MeshOptions& o) {
@@ -244,6 +250,16 @@ const Refused kRefused[] = {
      [](MeshOptions& o) {
        o = {};
        o.nv = 4;
+     }},
+    {"one error", Status::bad_rates,
+     [](MeshOptions& o) {
+       static constexpr double kOne[] = {0};
+       o.rates.errors = kOne;
+     }},
+    {"one tolerance", Status::bad_rates,
+     [](MeshOptions& o) {
+       static constexpr double kOne[] = {1};
+       o.rates.tolerances = kOne;
      }},
     {"grid too large", Status::bad_rates,
      [](MeshOptions& o) {
@@ -257,10 +273,10 @@ TEST(MeshOptions, refuses_bad_options) {
   const auto nets = ControlNets<double>::packed(std::span<const double>(values));
   for (const Refused& refused : kRefused) {
     MeshOptions options;
-    options.tolerance = 0.01;
+    options.rates.tolerance = 0.01;
     refused.change(options);
     const Mesh<float> mesh = tessellate<float>(nets, options);
-    EXPECT_EQ(to_string(mesh.status), to_string(refused.status)) << refused.what;
+    EXPECT_EQ(to_string(mesh.report.status), to_string(refused.status)) << refused.what;
     EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty());
   }
 }
@@ -268,30 +284,30 @@ TEST(MeshOptions, refuses_bad_options) {
 TEST(MeshOptions, refuses_bad_nets) {
   std::vector<double> values = sheet_values();
   MeshOptions options;
-  options.tolerance = 0.01;
+  options.rates.tolerance = 0.01;
   const auto mesh_of = [&](const ControlNets<double>& nets) {
     return tessellate<float>(nets, options);
   };
   values[3 * 48 + 5] = kNan;
   const auto nets = ControlNets<double>::packed(std::span<const double>(values));
   const Mesh<float> mesh = mesh_of(nets);
-  EXPECT_EQ(mesh.status, Status::non_finite_input);
-  EXPECT_EQ(mesh.fault_patch, 3U);
+  EXPECT_EQ(mesh.report.status, Status::non_finite_input);
+  EXPECT_EQ(mesh.report.item, 3U);
   auto flat = nets;
   flat.components = 2;
-  EXPECT_EQ(mesh_of(flat).status, Status::bad_components);
-  EXPECT_EQ(mesh_of(ControlNets<double>{nullptr, 2}).status, Status::null_input);
+  EXPECT_EQ(mesh_of(flat).report.status, Status::bad_components);
+  EXPECT_EQ(mesh_of(ControlNets<double>{nullptr, 2}).report.status, Status::null_input);
   auto degree = nets;
   degree.degree_u = 16;
-  EXPECT_EQ(mesh_of(degree).status, Status::bad_degree);
+  EXPECT_EQ(mesh_of(degree).report.status, Status::bad_degree);
   const Mesh<float> none = mesh_of(ControlNets<double>{});
-  EXPECT_EQ(none.status, Status::ok);
+  EXPECT_EQ(none.report.status, Status::ok);
   EXPECT_TRUE(none.triangles.empty());
   for (const MeshModel& model : mesh_models()) {
     if (!model.orientable) {
       const std::vector<double> ring = model.values();
-      options.orient = true;
-      EXPECT_EQ(mesh_of(ControlNets<double>::packed(std::span<const double>(ring))).status,
+      options.topology.orient = true;
+      EXPECT_EQ(mesh_of(ControlNets<double>::packed(std::span<const double>(ring))).report.status,
                 Status::not_orientable);
     }
   }

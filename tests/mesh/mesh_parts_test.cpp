@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/mesh_parts.hpp>
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/simdbezier.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
@@ -75,7 +74,7 @@ Mesh make_mesh(const Model& model, const std::vector<std::uint32_t>& patches,
   EXPECT_EQ(lay_out_mesh(topology, {own_nu, own_nv, {}}, mesh.layout), Status::ok);
   EXPECT_EQ(pack(nets, mesh.set).status, Status::ok);
   if (split == Split::creases) {
-    EXPECT_EQ(split_creases(mesh.set, mesh.layout, 0.5, mesh.layout), Status::ok);
+    EXPECT_EQ(split_creases(mesh.set, mesh.layout, 29, mesh.layout), Status::ok);
   } else if (split == Split::parameters) {
     EXPECT_EQ(split_parameters(mesh.layout, mesh.layout), Status::ok);
   }

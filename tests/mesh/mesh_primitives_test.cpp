@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
 

@@ -142,11 +142,10 @@ void expect_same(const detail::MeshData& a, const detail::MeshData& b) {
 }
 
 template <typename S>
-Topology topology_of(const std::vector<S>& values, TopologyOptions options, int threads) {
-  options.threads = threads;
+Topology topology_of(const std::vector<S>& values, const TopologyOptions& options, int threads) {
   Topology topology;
   EXPECT_EQ(find_topology(ControlNets<S>::packed(values.data(), values.size() / 48, 3, 3), topology,
-                          options),
+                          options, {.threads = threads}),
             Status::ok);
   return topology;
 }

@@ -29,7 +29,7 @@ TEST(MissingViews, are_refused) {
   DistinctNets<double> distinct;
   QuantisationBox box;
   MeshOptions mesh;
-  mesh.tolerance = 1;
+  mesh.rates.tolerance = 1;
   EXPECT_EQ(find_topology(null, topology), Status::null_input);
   EXPECT_EQ(find_adjacency(null, links.data()), Status::null_input);
   EXPECT_EQ(find_distinct_nets(null, topology, distinct), Status::null_input);
@@ -39,15 +39,15 @@ TEST(MissingViews, are_refused) {
   EXPECT_EQ(pixel_tolerances(null, camera, 1, deviations), Status::null_input);
   EXPECT_EQ(quantisation_box(null, VertexFormat::unorm16, box), Status::null_input);
   EXPECT_EQ(pack(null, set).status, Status::null_input);
-  EXPECT_EQ(plan_mesh<float>(null, mesh).status, Status::null_input);
-  EXPECT_EQ(tessellate<float>(null, mesh).status, Status::null_input);
+  EXPECT_EQ(plan_mesh<float>(null, mesh).report.status, Status::null_input);
+  EXPECT_EQ(tessellate<float>(null, mesh).report.status, Status::null_input);
   EXPECT_EQ(topology.counts().patches, 1U);
   const std::span<const SplineSurface<double>> splines(
       static_cast<const SplineSurface<double>*>(nullptr), 2);
   EXPECT_EQ(to_bezier(splines, MutableNets<double>()).status, Status::null_input);
   EXPECT_EQ(pack(splines, set).status, Status::null_input);
-  EXPECT_EQ(plan_mesh<float>(splines, mesh).status, Status::null_input);
-  EXPECT_EQ(tessellate<float>(splines, mesh).status, Status::null_input);
+  EXPECT_EQ(plan_mesh<float>(splines, mesh).report.status, Status::null_input);
+  EXPECT_EQ(tessellate<float>(splines, mesh).report.status, Status::null_input);
 }
 
 } // namespace

@@ -112,8 +112,7 @@ std::array<Rated, 3> rate(const ControlNets<S>& nets, Isa isa, double scale = 1)
   const std::span<const ControlNets<S>> sets(&nets, 1);
   RateOptions options;
   options.tolerance = 0.01 * scale;
-  options.isa = isa;
-  EXPECT_EQ(choose_rates(sets, topology, options, rated[0].out()).status, Status::ok);
+  EXPECT_EQ(choose_rates(sets, topology, options, rated[0].out(), {.isa = isa}).status, Status::ok);
   EXPECT_EQ(certify_rates(sets, topology, {}, rated[1].out(), {.isa = isa}).status, Status::ok);
   EXPECT_EQ(certify_grids(sets, 5, 2, {}, rated[2].deviation, {.isa = isa}).status, Status::ok);
   return rated;
@@ -152,9 +151,9 @@ TEST(RateKernels, bounds_are_equal_on_all_instruction_sets) {
 struct Wishes {
   const char* name;
   double longest_edge = kUnlimited;
-  double normal_angle = kUnlimited;
+  double normal_degrees = kUnlimited;
 };
-constexpr Wishes kWishes[] = {{"tolerances"}, {"edges", 0.07}, {"angles", kUnlimited, 0.1}};
+constexpr Wishes kWishes[] = {{"tolerances"}, {"edges", 0.07}, {"angles", kUnlimited, 6}};
 
 double tolerance_of(std::size_t patch) {
   constexpr double kTolerances[] = {0.1, 1e-4, 0.003, 10, 0.02};
@@ -169,14 +168,13 @@ void expect_no_dependence(const Model<S>& model, const Wishes& wishes, Isa isa) 
   }
   RateOptions options;
   options.longest_edge = wishes.longest_edge;
-  options.normal_angle = wishes.normal_angle;
-  options.isa = isa;
+  options.normal_degrees = wishes.normal_degrees;
   const auto choose = [&](const ControlNets<S>& nets, std::span<const double> wanted) {
     Topology topology;
     EXPECT_EQ(find_topology(nets, topology), Status::ok);
     Rated rated(nets.count);
     options.tolerances = wanted;
-    EXPECT_EQ(choose_rates(nets, topology, options, rated.out()).status, Status::ok);
+    EXPECT_EQ(choose_rates(nets, topology, options, rated.out(), {.isa = isa}).status, Status::ok);
     return rated;
   };
   const Rated all = choose(model.nets(), tolerances);
@@ -215,11 +213,10 @@ TEST(RateKernels, a_patch_at_fault_is_named) {
     ASSERT_EQ(find_topology(model.nets(), topology), Status::ok);
     RateOptions options;
     options.tolerance = 0.01;
-    options.isa = isa;
     Rated rated;
-    const RateReport report = choose_rates(model.nets(), topology, options, rated.out());
+    const Report report = choose_rates(model.nets(), topology, options, rated.out(), {.isa = isa});
     EXPECT_EQ(report.status, Status::non_finite_input);
-    EXPECT_EQ(report.patch, kBad);
+    EXPECT_EQ(report.item, kBad);
   }
 }
 
@@ -278,8 +275,8 @@ TEST(RateKernels, absent_instruction_sets_are_a_status) {
   const auto absent = static_cast<Isa>(99);
   RateOptions options;
   options.tolerance = 1;
-  options.isa = absent;
-  EXPECT_EQ(choose_rates(sets, topology, options, rated.out()).status, Status::unsupported_isa);
+  EXPECT_EQ(choose_rates(sets, topology, options, rated.out(), {.isa = absent}).status,
+            Status::unsupported_isa);
   EXPECT_EQ(certify_rates(sets, topology, {}, rated.out(), {.isa = absent}).status,
             Status::unsupported_isa);
   EXPECT_EQ(certify_grids(sets, 1, 1, {}, rated.deviation, {.isa = absent}).status,

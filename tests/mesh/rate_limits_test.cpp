@@ -45,14 +45,14 @@ struct Rated {
   std::array<std::uint32_t, 1> nv{1};
   std::array<std::uint16_t, 1> diagonals{};
   std::array<double, 1> deviation{};
-  RateReport report;
+  Report report;
 
-  void choose(const std::vector<S>& values, int degree, RateOptions options) {
-    options.threads = 1; // of one patch
+  void choose(const std::vector<S>& values, int degree, const RateOptions& options) {
     const ControlNets<S> nets = ControlNets<S>::packed(values.data(), 1, degree, degree);
     Topology topology;
     ASSERT_EQ(find_topology(nets, topology), Status::ok);
-    report = choose_rates<S>({&nets, 1}, topology, options, {nu, nv, diagonals, deviation});
+    report = choose_rates<S>({&nets, 1}, topology, options, {nu, nv, diagonals, deviation},
+                             {.threads = 1});
   }
   void certify(const std::vector<S>& values, int degree, std::uint32_t of_u, std::uint32_t of_v) {
     const ControlNets<S> nets = ControlNets<S>::packed(values.data(), 1, degree, degree);
@@ -170,7 +170,7 @@ TYPED_TEST(RateLimits, deviations_are_within_the_tolerance_whatever_else_is_aske
     }
     RateOptions options;
     options.tolerance = std::pow(10, -4 + uniform(random));
-    options.normal_angle = k % 2 == 0 ? 10 : kUnlimited;
+    options.normal_degrees = k % 2 == 0 ? 570 : kUnlimited;
     options.longest_edge = k % 2 == 0 ? kUnlimited : 10;
     Rated<TypeParam> chosen;
     chosen.choose(values, 3, options);
@@ -218,10 +218,10 @@ TEST(RateReports, name_the_first_patch_of_all_sets) {
     std::vector<std::uint16_t> diagonals(3);
     RateOptions options;
     options.tolerances = each.tolerances;
-    const RateReport report =
+    const Report report =
         choose_rates<double>(sets[each.order], topology, options, {nu, nv, diagonals, {}});
     EXPECT_EQ(report.status, Status::bad_tolerance);
-    EXPECT_EQ(report.patch, each.patch);
+    EXPECT_EQ(report.item, each.patch);
   }
 }
 
@@ -252,9 +252,9 @@ TEST(GridCertificates, are_refused_where_there_are_none) {
         ControlNets<double>::packed(values.data(), 2, 1, 1, 3, each.weights);
     const std::vector<double> errors = {0, each.error};
     std::vector<double> deviation(2);
-    const RateReport report = certify_grids<double>({&nets, 1}, 3, 3, errors, deviation);
+    const Report report = certify_grids<double>({&nets, 1}, 3, 3, errors, deviation);
     EXPECT_EQ(report.status, each.status);
-    EXPECT_EQ(report.patch, each.status == Status::ok ? 0U : 1U);
+    EXPECT_EQ(report.item, each.status == Status::ok ? 0U : 1U);
     if (each.status == Status::ok) {
       EXPECT_GE(deviation[1], each.error);
       EXPECT_GT(deviation[1], 0);

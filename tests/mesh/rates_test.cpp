@@ -61,8 +61,8 @@ TEST(Rates, chosen_meshes_are_within_their_bound_and_that_within_the_tolerance) 
       RateOptions options;
       options.tolerance = tolerance;
       const ControlNets<double> nets = patch.nets();
-      const RateReport report = choose_rates(std::span<const ControlNets<double>>(&nets, 1),
-                                             topology, options, choice.out());
+      const Report report = choose_rates(std::span<const ControlNets<double>>(&nets, 1), topology,
+                                         options, choice.out());
       ASSERT_EQ(report.status, Status::ok);
       EXPECT_LE(choice.deviation[0], tolerance);
       if (choice.nu[0] * choice.nv[0] > 150) {
@@ -189,6 +189,29 @@ TEST(Rates, of_the_frame_before_are_kept_while_they_suffice) {
   EXPECT_LT(3 * changes[1], changes[0]);
 }
 
+TEST(Rates, the_smaller_tolerance_counts) {
+  const TestPatch patch = random_patch(0);
+  const Topology topology = topology_of(patch);
+  const ControlNets<double> nets = patch.nets();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto deviation = [&](double common, const std::vector<double>& own) {
+    Choice choice;
+    RateOptions options;
+    options.tolerance = common;
+    options.tolerances = own;
+    const Report report = choose_rates(nets, topology, options, choice.out());
+    return report ? choice.deviation[0] : nan;
+  };
+  const double fine = deviation(1e-3, {});
+  EXPECT_LE(fine, 1e-3);
+  EXPECT_GT(deviation(0.1, {}), fine);
+  EXPECT_EQ(deviation(1e-3, {0.1}), fine);
+  EXPECT_EQ(deviation(0.1, {1e-3}), fine);
+  EXPECT_EQ(deviation(kUnlimited, {1e-3}), fine);
+  EXPECT_TRUE(std::isnan(deviation(0.1, {nan})));
+  EXPECT_TRUE(std::isnan(deviation(nan, {0.1})));
+}
+
 TEST(Rates, bad_input_is_a_status) {
   const TestPatch patch = random_patch(0);
   const Topology topology = topology_of(patch);
@@ -199,9 +222,9 @@ TEST(Rates, bad_input_is_a_status) {
   RateOptions options;
   for (const double tolerance : {0.0, -1.0, nan, 1e-12}) { // the last one needs too many cells
     options.tolerance = tolerance;
-    const RateReport report = choose_rates(sets, topology, options, choice.out());
+    const Report report = choose_rates(sets, topology, options, choice.out());
     EXPECT_EQ(report.status, Status::bad_tolerance) << tolerance;
-    EXPECT_EQ(report.patch, 0U);
+    EXPECT_EQ(report.item, 0U);
   }
   options.tolerance = 0.1;
   const std::array<double, 1> errors = {0.1};
@@ -212,7 +235,7 @@ TEST(Rates, bad_input_is_a_status) {
   EXPECT_EQ(choose_rates(sets, topology, options, choice.out()).status, Status::bad_tolerance);
   options.longest_edge = std::numeric_limits<double>::infinity();
   CertifiedRates out = choice.out();
-  out.nu = {};
+  out.cells_u = {};
   EXPECT_EQ(choose_rates(sets, topology, options, out).status, Status::bad_rates);
   EXPECT_EQ(choose_rates(sets, Topology(), options, choice.out()).status, Status::bad_rates);
   choice.nu[0] = 0;

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/rates.hpp>
 
 #include "tests/mesh/mesh_oracle.hpp"

@@ -55,15 +55,15 @@ TEST(MeshScale, certificates_and_rates_go_with_it) {
     };
     for (const bool uniform : {false, true}) {
       const MeshPlan<double> usual = plan_of(0, uniform);
-      ASSERT_EQ(usual.status, Status::ok);
+      ASSERT_EQ(usual.report.status, Status::ok);
       EXPECT_GT(usual.deviation, 0);
       for (const int exponent : kExponents) {
         SCOPED_TRACE(exponent);
         const MeshPlan<double> plan = plan_of(exponent, uniform);
-        ASSERT_EQ(plan.status, Status::ok);
+        ASSERT_EQ(plan.report.status, Status::ok);
         EXPECT_EQ(plan.diagonal, std::scalbn(usual.diagonal, exponent));
-        EXPECT_EQ(plan.nu, usual.nu);
-        EXPECT_EQ(plan.nv, usual.nv);
+        EXPECT_EQ(plan.cells_u, usual.cells_u);
+        EXPECT_EQ(plan.cells_v, usual.cells_v);
         EXPECT_NEAR(std::scalbn(plan.deviation, -exponent), usual.deviation,
                     1e-9 * usual.deviation);
       }
@@ -88,11 +88,11 @@ TEST(MeshScale, polylines_go_with_it) {
       return flatten<double>(curves, std::scalbn(1e-3, exponent));
     };
     const Polylines<double> usual = lines_of(0);
-    ASSERT_EQ(usual.status, Status::ok);
+    ASSERT_EQ(usual.report.status, Status::ok);
     for (const int exponent : kExponents) {
       SCOPED_TRACE(exponent);
       const Polylines<double> lines = lines_of(exponent);
-      ASSERT_EQ(lines.status, Status::ok);
+      ASSERT_EQ(lines.report.status, Status::ok);
       EXPECT_EQ(lines.first, usual.first);
       EXPECT_NEAR(std::scalbn(lines.deviation, -exponent), usual.deviation, 1e-9 * usual.deviation);
     }
@@ -105,7 +105,7 @@ TEST(MeshScale, a_model_that_is_one_point_has_relative_tolerances) {
   MeshOptions options;
   options.relative_tolerance = 1e-3;
   const MeshPlan<float> plan = plan_mesh<float>(nets, options);
-  EXPECT_EQ(plan.status, Status::ok);
+  EXPECT_EQ(plan.report.status, Status::ok);
   EXPECT_LT(plan.deviation, 1e-5);
 }
 
@@ -127,10 +127,10 @@ TEST(MeshScale, points_and_snapping_go_with_it) {
     for (const double snap : {0.05, 0.2}) {
       MeshOptions options;
       options.nu = options.nv = 64;
-      options.snap = std::scalbn(snap, exponent);
-      options.point_size = std::scalbn(1e-6, exponent);
+      options.topology.snap = std::scalbn(snap, exponent);
+      options.topology.point_size = std::scalbn(1e-6, exponent);
       const MeshPlan<double> plan = plan_mesh<double>(nets, options);
-      ASSERT_EQ(plan.status, Status::ok);
+      ASSERT_EQ(plan.report.status, Status::ok);
       EXPECT_EQ(plan.counts.collapsed_sides, 0U);
       EXPECT_EQ(plan.counts.snapped_sides, snap > 0.1 ? 2U : 0U);
       EXPECT_EQ(std::scalbn(plan.deviations[1], -exponent) >= 0.0999, snap > 0.1);
@@ -151,23 +151,23 @@ TEST(MeshScale, a_model_that_is_nearly_one_point_has_the_tolerance_that_is_asked
   };
   std::vector<Case> cases(6);
   cases[0] = {"tolerance", {}, Status::ok};
-  cases[0].options.tolerance = 0.1;
+  cases[0].options.rates.tolerance = 0.1;
   cases[1] = {"tolerances", {}, Status::ok};
-  cases[1].options.tolerances = own;
+  cases[1].options.rates.tolerances = own;
   cases[2] = {"pixels", {}, Status::ok};
   cases[2].options.pixels = 1;
   cases[2].options.camera.eye = {1000, 1000, 2000};
   cases[3] = {"angle", {}, Status::ok};
-  cases[3].options.normal_angle = 0.1;
+  cases[3].options.rates.normal_degrees = 6;
   cases[4] = {"below the vertices' errors", {}, Status::bad_tolerance};
-  cases[4].options.tolerance = 1e-9;
+  cases[4].options.rates.tolerance = 1e-9;
   cases[5] = {"the smaller of two", {}, Status::bad_tolerance};
-  cases[5].options.tolerances = own;
-  cases[5].options.tolerance = 1e-9;
+  cases[5].options.rates.tolerances = own;
+  cases[5].options.rates.tolerance = 1e-9;
   for (const Case& each : cases) {
     SCOPED_TRACE(each.name);
     const MeshPlan<float> plan = plan_mesh<float>(nets, each.options);
-    EXPECT_EQ(plan.status, each.status);
+    EXPECT_EQ(plan.report.status, each.status);
     EXPECT_LE(plan.deviation, 0.1);
   }
 }
@@ -198,7 +198,7 @@ TEST(MeshAttributes, have_as_many_components_as_the_set_has_behind_the_first) {
   MeshOptions options;
   options.nu = options.nv = 3;
   const MeshPlan<float> plan = plan_mesh<float>(nets, options);
-  ASSERT_EQ(plan.status, Status::ok);
+  ASSERT_EQ(plan.report.status, Status::ok);
   std::vector<float> to(3 * plan.layout.size().vertices, 77.0F);
   const auto status_of = [&](const Vectors<float>& out, int first) {
     return evaluate_mesh_attributes(plan.set, plan.layout, out, first);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/rates.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
@@ -242,7 +242,7 @@ TEST(Separation, is_refused_beyond_the_most_segments) {
       RateOptions options;
       options.tolerance = 100;
       options.most_segments = most;
-      const RateReport report =
+      const Report report =
           choose_rates(std::span(&nets, 1), topology, options,
                        {std::span(&nu, 1), std::span(&nv, 1), std::span(&diagonals, 1), {}});
       EXPECT_EQ(report.status, most < 3 ? Status::bad_tolerance : Status::ok) << most;

@@ -55,11 +55,11 @@ void expect_tip(const Short& c, int turn, Weights form) {
   }
   MeshOptions options;
   options.nu = options.nv = 4;
-  options.point_size = c.point_size;
-  options.snap = c.snap;
+  options.topology.point_size = c.point_size;
+  options.topology.snap = c.snap;
   const Mesh<T> mesh = tessellate<T>(
       ControlNets<double>::packed(std::span<const double>(values), 1, 1, 3, form), options);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   EXPECT_EQ(mesh.counts.collapsed_sides, 1U);
   int tips = 0;
   // Turned once, the patch faces the other way.
@@ -106,11 +106,11 @@ TEST(ShortSides, that_bulge_count_in_the_certificate) {
   }
   MeshOptions options;
   options.nu = options.nv = 8;
-  options.point_size = 2 * kBulge;
+  options.topology.point_size = 2 * kBulge;
   const auto nets =
       ControlNets<double>::packed(std::span<const double>(values), 2, 1, 3, Weights::none);
   const Mesh<double> mesh = tessellate<double>(nets, options);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   EXPECT_EQ(mesh.counts.collapsed_sides, 1U);
   EXPECT_GE(mesh.deviation, kBulge / 2);
 }

@@ -34,9 +34,9 @@ MeshModel shaken(MeshModel model, double most, unsigned seed) {
 Mesh<double> mesh_of(const MeshModel& model, double tolerance, double snap, double point_size) {
   const std::vector<double> values = model.values();
   MeshOptions options;
-  options.tolerance = tolerance;
-  options.snap = snap;
-  options.point_size = point_size;
+  options.rates.tolerance = tolerance;
+  options.topology.snap = snap;
+  options.topology.point_size = point_size;
   return tessellate<double>(ControlNets<double>::packed(std::span<const double>(values)), options);
 }
 
@@ -65,10 +65,10 @@ TEST(Snapping, closes_what_nearly_matches) {
         SCOPED_TRACE(model.name + ", seed " + std::to_string(seed));
         const MeshModel near = shaken(seed == 0 ? model : shuffled(model, seed), kShake, seed);
         const Mesh<double> apart = mesh_of(near, 0.05, 0, kSnap);
-        ASSERT_EQ(apart.status, Status::ok);
+        ASSERT_EQ(apart.report.status, Status::ok);
         EXPECT_GT(census_of(apart).open, 0U);
         const Mesh<double> mesh = mesh_of(near, 0.05, kSnap, kSnap);
-        ASSERT_EQ(mesh.status, Status::ok);
+        ASSERT_EQ(mesh.report.status, Status::ok);
         EXPECT_EQ(mesh.counts.open_edges, 0U);
         EXPECT_GT(mesh.counts.snapped_sides, 0U);
         const TriangleCensus census = census_of(mesh);
@@ -87,7 +87,7 @@ TEST(Snapping, makes_points_of_open_sides_that_are_as_short) {
       for (unsigned seed = 0; seed < 4; ++seed) {
         SCOPED_TRACE(model.name + ", seed " + std::to_string(seed));
         const Mesh<double> mesh = mesh_of(shaken(model, 1e-4, seed), 0.05, 1e-3, 0);
-        ASSERT_EQ(mesh.status, Status::ok);
+        ASSERT_EQ(mesh.report.status, Status::ok);
         EXPECT_EQ(mesh.counts.open_edges, 0U);
         EXPECT_TRUE(mesh.counts.orientable);
         const TriangleCensus census = census_of(mesh);
@@ -128,7 +128,7 @@ TEST(Snapping, makes_points_of_longer_sides_around_a_pole) {
       for (unsigned seed = 0; seed < 4; ++seed) {
         const MeshModel torn = with_torn_poles(model, 1e-3);
         const Mesh<double> mesh = mesh_of(seed == 0 ? torn : shuffled(torn, seed), 0.05, 1e-3, 0);
-        ASSERT_EQ(mesh.status, Status::ok);
+        ASSERT_EQ(mesh.report.status, Status::ok);
         EXPECT_EQ(mesh.counts.collapsed_sides, 8U);
         EXPECT_EQ(mesh.counts.open_edges, 0U);
         const TriangleCensus census = census_of(mesh);
@@ -153,7 +153,7 @@ TEST(Snapping, makes_points_of_short_sides_that_are_shared) {
   }
   for (const bool snaps : {false, true}) {
     const Mesh<double> mesh = mesh_of(model, 0.05, snaps ? 1e-3 : 0, snaps ? 0 : 1e-3);
-    ASSERT_EQ(mesh.status, Status::ok);
+    ASSERT_EQ(mesh.report.status, Status::ok);
     EXPECT_EQ(mesh.counts.collapsed_sides, 2U);
     EXPECT_EQ(mesh.counts.edges, 6U);
     EXPECT_EQ(census_of(mesh).degenerate, 0U);
@@ -179,15 +179,15 @@ TEST(Snapping, is_part_of_the_certificate) {
       }
     }
     const Mesh<double> mesh = mesh_of(model, 0.2, 0.05, 0);
-    ASSERT_EQ(mesh.status, Status::ok);
+    ASSERT_EQ(mesh.report.status, Status::ok);
     EXPECT_EQ(mesh.counts.snapped_sides, gap > 0 ? 2U : 0U);
     EXPECT_EQ(mesh.counts.open_edges, 6U);
     EXPECT_LT(mesh.deviations[0], 1e-12) << "the first patch's points are taken";
     EXPECT_GE(mesh.deviations[1], gap);
     EXPECT_LE(mesh.deviations[1], 0.2);
     const Mesh<double> refused = mesh_of(model, 0.029, 0.05, 0);
-    EXPECT_EQ(refused.status, gap > 0.029 ? Status::snap_too_large : Status::ok);
-    EXPECT_EQ(refused.fault_patch, gap > 0.029 ? 1U : 0U);
+    EXPECT_EQ(refused.report.status, gap > 0.029 ? Status::snap_too_large : Status::ok);
+    EXPECT_EQ(refused.report.item, gap > 0.029 ? 1U : 0U);
   }
 }
 
@@ -225,7 +225,7 @@ TEST(Snapping, of_quotients_is_part_of_the_certificate) {
     MeshOptions options;
     options.nu = options.nv = 256;
     const MeshPlan<double> plan = plan_mesh<double>(nets, options);
-    ASSERT_EQ(plan.status, Status::ok);
+    ASSERT_EQ(plan.report.status, Status::ok);
     EXPECT_EQ(plan.counts.collapsed_sides, 1U);
     EXPECT_GE(plan.deviation, apart);
     ++judged;
@@ -238,18 +238,19 @@ TEST(Snapping, is_blamed_where_it_leaves_too_little_of_the_tolerance) {
   const MeshModel near = shaken(
       *std::ranges::find(models, "torus 4 x 3", [](const MeshModel& one) { return one.name; }),
       0.01, 5);
-  EXPECT_EQ(to_string(mesh_of(near, 2e-3, 0.2, 0).status), to_string(Status::snap_too_large));
-  EXPECT_EQ(to_string(mesh_of(near, 2e-3, 0, 0).status), "ok");
-  EXPECT_EQ(to_string(mesh_of(near, 0.2, 0.2, 0).status), "ok");
-  EXPECT_EQ(to_string(mesh_of(near, 1e-17, 0, 0).status), to_string(Status::bad_tolerance));
-  EXPECT_EQ(to_string(mesh_of(near, -1, 0.2, 0).status), to_string(Status::bad_tolerance));
+  EXPECT_EQ(to_string(mesh_of(near, 2e-3, 0.2, 0).report.status),
+            to_string(Status::snap_too_large));
+  EXPECT_EQ(to_string(mesh_of(near, 2e-3, 0, 0).report.status), "ok");
+  EXPECT_EQ(to_string(mesh_of(near, 0.2, 0.2, 0).report.status), "ok");
+  EXPECT_EQ(to_string(mesh_of(near, 1e-17, 0, 0).report.status), to_string(Status::bad_tolerance));
+  EXPECT_EQ(to_string(mesh_of(near, -1, 0.2, 0).report.status), to_string(Status::bad_tolerance));
 }
 
 TEST(Snapping, leaves_what_is_farther_apart) {
   for (const MeshModel& model : mesh_models()) {
     if (model.name == "torus 4 x 3" || model.name == "cube") {
       const Mesh<double> mesh = mesh_of(shaken(model, 0.01, 3), 0.05, 1e-4, 0);
-      ASSERT_EQ(mesh.status, Status::ok);
+      ASSERT_EQ(mesh.report.status, Status::ok);
       EXPECT_EQ(mesh.counts.snapped_sides, 0U);
       EXPECT_EQ(mesh.counts.open_edges, 4 * model.patches.size());
     }
@@ -271,7 +272,7 @@ TEST(Snapping, takes_the_closest_pairs) {
     }
   }
   const Mesh<double> mesh = mesh_of(model, 0.5, 0.02, 0);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   EXPECT_EQ(mesh.counts.snapped_sides, 2U);
   EXPECT_LT(mesh.deviations[1], 1e-12);
   EXPECT_NEAR(mesh.deviations[2], 0.001, 1e-9);

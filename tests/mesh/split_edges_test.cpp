@@ -106,14 +106,14 @@ void expect_closed(unsigned seed, Kind kind) {
   }
   const GeneralViews<S> views(patches);
   MeshOptions options;
-  options.tolerance = 0.2 * size;
+  options.rates.tolerance = 0.2 * size;
   options.split_edges = true;
   options.normals = false;
   options.parameters = true;
   const MeshPlan<S> plan = plan_mesh<S, S>(views.nets, options);
-  ASSERT_EQ(plan.status, Status::ok);
+  ASSERT_EQ(plan.report.status, Status::ok);
   const Mesh<S> mesh = tessellate<S, S>(views.nets, options);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   expect_parameters(mesh, patches, size * (sizeof(S) == 4 ? 1e-3 : 1e-9));
   expect_errors(views, patches);
   if (seed % 4 == 0) {
@@ -127,7 +127,7 @@ void expect_closed(unsigned seed, Kind kind) {
   EXPECT_EQ(gluing.folded ? 0 : census.crowded + census.degenerate, 0U);
   const Mesh<double> before =
       tessellate<double>(ControlNets<double>::packed(std::span<const double>(gluing.values)),
-                         {.tolerance = 0.2, .normals = false});
+                         {.rates = {.tolerance = 0.2}, .normals = false});
   EXPECT_EQ(gluing.folded ? 0 : census.euler - census_of(before).euler, 0);
   EXPECT_EQ(gluing.folded ? 0 : census.loops - census_of(before).loops, 0U);
 }
@@ -281,16 +281,16 @@ TYPED_TEST(SplitEdges, go_along_with_leaving_out_and_turning_patches) {
   const GeneralViews<TypeParam> views(patches);
   MeshOptions options;
   options.nu = options.nv = 3;
-  options.split_edges = options.drop_repeated = options.orient = true;
+  options.split_edges = options.drop_repeated = options.topology.orient = true;
   const MeshPlan<TypeParam> plan = plan_mesh<TypeParam, TypeParam>(views.nets, options);
-  ASSERT_EQ(plan.status, Status::ok);
+  ASSERT_EQ(plan.report.status, Status::ok);
   EXPECT_EQ(plan.counts.repeated_patches, 1U);
   EXPECT_EQ(plan.counts.open_edges, 8U);
   EXPECT_EQ(plan.patches, (std::vector<std::uint32_t>{0, 0, 2, 3}));
   ASSERT_EQ(plan.pieces.size(), 4U);
   EXPECT_EQ(plan.pieces[3].patch, 3U);
   const Mesh<TypeParam> mesh = tessellate<TypeParam, TypeParam>(views.nets, options);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   EXPECT_EQ(mesh.positions.size(), 25U);
   EXPECT_EQ(mesh.deviations.size(), 4U);
   EXPECT_EQ(mesh.deviations[1], 0);
@@ -358,11 +358,11 @@ TEST(SplitEdgesCuts, that_are_nearer_than_the_snap_are_one) {
       }
       MeshOptions options;
       options.nu = options.nv = 2;
-      options.snap = 1e-5;
+      options.topology.snap = 1e-5;
       options.split_edges = true;
       const auto nets = ControlNets<double>::packed(values.data(), 5, 1, 1);
       const MeshPlan<double> plan = plan_mesh<double>(nets, options);
-      ASSERT_EQ(plan.status, Status::ok);
+      ASSERT_EQ(plan.report.status, Status::ok);
       EXPECT_EQ(plan.pieces.size(), 6U);
       EXPECT_EQ(plan.splits.unjoined, 0U);
       EXPECT_EQ(tessellate<double>(nets, options).triangles.size(), 12U);

@@ -2,13 +2,12 @@
 // patches share vertices.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include <gtest/gtest.h>
 
+#include <simdbezier/evaluate_mesh.hpp>
 #include <simdbezier/mesh.hpp>
-#include <simdbezier/vertex_formats.hpp>
 
 #include "tests/mesh/evaluated_mesh.hpp"
 #include "tests/mesh/mesh_oracle.hpp"
@@ -18,7 +17,7 @@
 namespace simdbezier::tests::split_parameters_test {
 namespace {
 
-const double kCreases[] = {kUnlimited, 0, std::numbers::pi / 6, std::numbers::pi};
+const double kCreases[] = {kUnlimited, 0, 30, 180};
 
 /// Triangles by positions and normals of their corners, whichever numbers vertices have.
 template <typename T>
@@ -265,12 +264,12 @@ struct Request {
   void (*change)(MeshOptions&);
 };
 const Request kRequests[] = {
-    {"tolerance", [](MeshOptions& o) { o.tolerance = 0.05; }},
+    {"tolerance", [](MeshOptions& o) { o.rates.tolerance = 0.05; }},
     {"grid", [](MeshOptions& o) { o.nu = 4, o.nv = 3; }},
-    {"crease", [](MeshOptions& o) { o.tolerance = 0.05, o.crease_angle = kCreases[2]; }},
-    {"apart", [](MeshOptions& o) { o.nu = o.nv = 3, o.crease_angle = 0; }},
+    {"crease", [](MeshOptions& o) { o.rates.tolerance = 0.05, o.crease_degrees = kCreases[2]; }},
+    {"apart", [](MeshOptions& o) { o.nu = o.nv = 3, o.share_vertices = false; }},
     {"no normals", [](MeshOptions& o) { o.nu = 2, o.nv = 5, o.normals = false; }},
-    {"flipped", [](MeshOptions& o) { o.nu = o.nv = 3, o.flip = true; }},
+    {"flipped", [](MeshOptions& o) { o.nu = o.nv = 3, o.topology.flip = true; }},
     {"once each", [](MeshOptions& o) { o.nu = o.nv = 3, o.drop_repeated = true; }}};
 
 TYPED_TEST(SplitParameters, of_tessellate_are_those_of_the_same_mesh) {

@@ -57,7 +57,7 @@ std::span<const std::uint32_t> numbers_of(const Mesh<T>& mesh) {
 /// What is true of every mesh.
 template <typename T>
 void expect_sound(const Mesh<T>& mesh, bool normals) {
-  ASSERT_EQ(mesh.status, Status::ok) << "patch " << mesh.fault_patch;
+  ASSERT_EQ(mesh.report.status, Status::ok) << "patch " << mesh.report.item;
   EXPECT_EQ(mesh.normals.size(), normals ? mesh.positions.size() : 0);
   std::size_t flat = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -90,8 +90,8 @@ TYPED_TEST(TessellateModels, are_closed_and_as_close_as_certified) {
       const std::vector<double> values = model.values();
       const auto nets = ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3);
       MeshOptions options;
-      options.tolerance = tolerance;
-      options.orient = model.orientable;
+      options.rates.tolerance = tolerance;
+      options.topology.orient = model.orientable;
       const MeshPlan<T> plan = plan_mesh<T>(nets, options);
       const Mesh<T> mesh = tessellate<T>(nets, options);
       expect_sound(mesh, true);
@@ -140,7 +140,7 @@ TEST(TessellateData, is_closed_where_the_data_is_and_as_close_as_certified) {
       for (std::size_t p = 0; p < plan.set.size(); p += step) {
         const std::size_t given = plan.patches.empty() ? p : plan.patches[p];
         EXPECT_EQ(mesh.deviations[given], plan.deviations[p]);
-        if (plan.nu[p] * plan.nv[p] < 150) {
+        if (plan.cells_u[p] * plan.cells_v[p] < 150) {
           EXPECT_LE(found_deviation(plan, mesh, model.patches[given], p, 3), plan.deviations[p]);
         }
       }
@@ -153,7 +153,7 @@ TEST(Tessellate, has_the_type_of_the_nets_where_none_is_named) {
   const std::vector<double> values = model.values();
   const std::vector<float> rounded(values.begin(), values.end());
   MeshOptions options;
-  options.tolerance = 0.01;
+  options.rates.tolerance = 0.01;
   const auto check = [&]<typename S>(const ControlNets<S>& nets) {
     const std::span<const ControlNets<S>> views(&nets, 1);
     const auto deduced = tessellate(nets, options);
@@ -162,7 +162,7 @@ TEST(Tessellate, has_the_type_of_the_nets_where_none_is_named) {
     static_assert(std::is_same_v<decltype(tessellate<double>(nets, options)), Mesh<double>>);
     EXPECT_EQ(deduced.positions, tessellate<S>(nets, options).positions);
     EXPECT_EQ(tessellate(views, options).triangles, deduced.triangles);
-    EXPECT_EQ(plan_mesh(views, options).nu, plan_mesh<S>(views, options).nu);
+    EXPECT_EQ(plan_mesh(views, options).cells_u, plan_mesh<S>(views, options).cells_u);
     EXPECT_FALSE(deduced.positions.empty());
   };
   check(ControlNets<double>::packed(std::span<const double>(values)));
@@ -175,7 +175,7 @@ TEST(Tessellate, of_ten_thousand_random_patches_is_one_sheet) {
   const std::vector<double> values = model.values();
   const auto nets = ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3);
   MeshOptions options;
-  options.tolerance = 0.05;
+  options.rates.tolerance = 0.05;
   const Mesh<float> mesh = tessellate<float>(nets, options);
   expect_sound(mesh, true);
   const TriangleCensus census = count_triangles(numbers_of(mesh), mesh.positions.size());
@@ -215,7 +215,7 @@ TEST(Tessellate, of_a_rational_torus_is_closed_and_as_close_as_certified) {
   for (const double tolerance : {0.3, 0.03, 0.003}) {
     SCOPED_TRACE(tolerance);
     MeshOptions options;
-    options.tolerance = tolerance;
+    options.rates.tolerance = tolerance;
     const Mesh<double> mesh = tessellate<double>(nets, options);
     expect_sound(mesh, true);
     const TriangleCensus census = count_triangles(numbers_of(mesh), mesh.positions.size());
@@ -260,7 +260,7 @@ TEST(Tessellate, of_a_side_that_is_a_loop_has_no_triangle_without_area) {
       }
       const std::vector<double> values = MeshModel{"lid", {patch}}.values();
       MeshOptions options;
-      options.tolerance = 100;
+      options.rates.tolerance = 100;
       const auto nets = ControlNets<double>::packed(std::span<const double>(values));
       expect_sound(tessellate<float>(nets, options), true);
     }

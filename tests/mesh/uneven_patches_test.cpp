@@ -214,13 +214,13 @@ struct Sampled {
         ControlNets<double>::packed(values.data(), values.size() / patch.values.size(),
                                     patch.degree_u, patch.degree_v, 3, patch.weights);
     plan = plan_mesh<double>(nets, options);
-    EXPECT_EQ(plan.status, Status::ok);
+    EXPECT_EQ(plan.report.status, Status::ok);
     const Mesh<double> mesh = tessellate<double>(nets, options);
-    EXPECT_EQ(mesh.status, Status::ok);
-    if (plan.status == Status::ok && plan.nu[0] * plan.nv[0] <= 150) {
+    EXPECT_EQ(mesh.report.status, Status::ok);
+    if (plan.report.status == Status::ok && plan.cells_u[0] * plan.cells_v[0] <= 150) {
       const auto surface = [&](double u, double v) { return patch.at(u, v); };
       found = farthest_sample(plan, mesh, surface, 0, 4);
-      found = plan.nu[0] * plan.nv[0] > 8
+      found = plan.cells_u[0] * plan.cells_v[0] > 8
                   ? found
                   : std::max(found, farthest_from_surface(plan, mesh, surface, 0));
     }
@@ -232,7 +232,7 @@ TEST(UnevenPatches, are_as_close_as_certified) {
     SCOPED_TRACE(patch.name);
     for (const double tolerance : {0.1, 0.02}) {
       MeshOptions options;
-      options.tolerance = tolerance;
+      options.rates.tolerance = tolerance;
       options.normals = false;
       const Sampled sampled(patch, patch.values, options);
       ASSERT_EQ(sampled.plan.deviations.size(), 1U);
@@ -262,7 +262,7 @@ TEST(UnevenPatches, are_as_close_as_certified_whatever_their_neighbours) {
     const std::vector<double> values = with_neighbour(patch);
     const std::array<double, 2> tolerances = {0.1, 0.005};
     MeshOptions options;
-    options.tolerances = tolerances;
+    options.rates.tolerances = tolerances;
     options.normals = false;
     const Sampled sampled(patch, values, options);
     ASSERT_EQ(sampled.plan.deviations.size(), 2U);
@@ -336,9 +336,9 @@ void expect_two_triangles(const double (&along)[4]) {
   const std::vector<T> values(patch.values.begin(), patch.values.end());
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     MeshOptions options;
-    options.tolerance = tolerance;
+    options.rates.tolerance = tolerance;
     const Mesh<T> mesh = tessellate<T>(ControlNets<T>::packed(std::span<const T>(values)), options);
-    ASSERT_EQ(mesh.status, Status::ok);
+    ASSERT_EQ(mesh.report.status, Status::ok);
     EXPECT_EQ(mesh.triangles.size(), 2U);
     EXPECT_LE(mesh.deviation, 1e-6);
   }

@@ -86,15 +86,15 @@ void expect_joined(const RandomGluing& gluing, const Unlike& how, double size, u
     return;
   }
   MeshOptions options;
-  options.tolerance = 0.1 * size;
-  options.snap = snap;
+  options.rates.tolerance = 0.1 * size;
+  options.topology.snap = snap;
   options.normals = false;
   const GeneralViews<S> views(patches);
   const MeshPlan<S> plan = plan_mesh<S, S>(views.nets, options);
-  ASSERT_EQ(plan.status, Status::ok);
+  ASSERT_EQ(plan.report.status, Status::ok);
   const Mesh<S> mesh = tessellate<S, S>(views.nets, options);
-  ASSERT_EQ(mesh.status, Status::ok);
-  EXPECT_LE(mesh.deviation, options.tolerance);
+  ASSERT_EQ(mesh.report.status, Status::ok);
+  EXPECT_LE(mesh.deviation, options.rates.tolerance);
   const TriangleCensus census = census_of(mesh);
   EXPECT_EQ(census.open > 0, gluing.open_edges > 0);
   EXPECT_EQ(gluing.folded ? 0 : census.crowded + census.degenerate, 0U);
@@ -145,10 +145,10 @@ TYPED_TEST(UnlikeEdges, of_other_weights_are_other_curves) {
     const double apart = std::fabs(3 * w / (1 + w) - 3 * other / (1 + other));
     for (const double snap : {0.99 * apart, 2.0}) {
       MeshOptions options;
-      options.tolerance = 100;
-      options.snap = snap;
+      options.rates.tolerance = 100;
+      options.topology.snap = snap;
       const Mesh<TypeParam> mesh = tessellate<TypeParam, TypeParam>(nets, options);
-      ASSERT_EQ(mesh.status, Status::ok);
+      ASSERT_EQ(mesh.report.status, Status::ok);
       EXPECT_EQ(mesh.counts.open_edges, snap < apart ? 8U : 6U);
       EXPECT_TRUE(snap < apart || mesh.deviation >= apart);
     }
@@ -205,9 +205,9 @@ void expect_sphere(double radius, double offset, unsigned seed) {
   }
   const GeneralViews<S> views(patches);
   MeshOptions options;
-  options.tolerance = 0.05 * radius;
+  options.rates.tolerance = 0.05 * radius;
   const Mesh<S> mesh = tessellate<S, S>(views.nets, options);
-  ASSERT_EQ(mesh.status, Status::ok);
+  ASSERT_EQ(mesh.report.status, Status::ok);
   EXPECT_EQ(mesh.counts.collapsed_sides, 8U);
   EXPECT_EQ(mesh.counts.corners, 6U);
   EXPECT_EQ(mesh.counts.open_edges, 0U);
@@ -265,7 +265,7 @@ void expect_tip(std::mt19937& random) {
     MeshOptions options;
     options.nu = options.nv = 6;
     const Mesh<S> mesh = tessellate<S>(whole, options);
-    ASSERT_EQ(mesh.status, Status::ok);
+    ASSERT_EQ(mesh.report.status, Status::ok);
     EXPECT_EQ(mesh.counts.collapsed_sides, 1U);
     EXPECT_EQ(mesh.counts.corners, 3U);
     EXPECT_EQ(mesh.positions.size(), 31U);

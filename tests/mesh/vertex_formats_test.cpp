@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 #include "tests/mesh/ball_mesh.hpp"
 #include "tests/mesh/format_decoding.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 #include "tests/mesh/ball_mesh.hpp"
 

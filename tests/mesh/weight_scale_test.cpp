@@ -65,7 +65,7 @@ std::vector<Certificate> patch_certificates(const std::vector<double>& values, i
   EXPECT_EQ(choose_rates(sets, topology, options, found[2].out()).status, Status::ok);
   options.tolerance = 10;
   options.longest_edge = 0.5;
-  options.normal_angle = 0.5;
+  options.normal_degrees = 29;
   EXPECT_EQ(choose_rates(sets, topology, options, found[3].out()).status, Status::ok);
   return found;
 }

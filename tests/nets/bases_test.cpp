@@ -219,7 +219,7 @@ TEST_P(MeshTest, PatchesAreTheSplineAndMeetBitForBit) {
   const auto [nu, nv] = span_count(mesh.view);
   const Shape shape{3, 3, 3, item.weights};
   Batch<float> patches(shape, nu * nv);
-  const SplineReport report = to_bezier(mesh.view, patches.out(), {}, {.threads = 2});
+  const Report report = to_bezier(mesh.view, patches.out(), {}, {.threads = 2});
   ASSERT_EQ(to_string(report.status), to_string(Status::ok));
 
   for (std::size_t p = 0; p < patches.count; ++p) {

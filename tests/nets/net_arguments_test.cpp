@@ -76,7 +76,7 @@ TEST_P(NetArgumentsTest, OfSplitting) {
   GetParam().change(nets, out);
   MutableNets<float> other = high.out();
   other.count = nets.count;
-  const NetReport report = split_u(nets, 0.5F, out, other, {.threads = 2});
+  const Report report = split_u(nets, 0.5F, out, other, {.threads = 2});
   EXPECT_EQ(to_string(report.status), to_string(GetParam().status));
   if (GetParam().status != Status::ok) {
     EXPECT_EQ(differing(low.values, untouched) + differing(high.values, untouched), 0U);
@@ -136,7 +136,7 @@ TEST(NetArguments, Degrees) {
 }
 
 /// Refused for what the call is given besides values: no control point is named.
-void expect_argument_fault(const NetReport& report, Status status) {
+void expect_argument_fault(const Report& report, Status status) {
   EXPECT_EQ(to_string(report.status), to_string(status));
   EXPECT_EQ(report.point, -1);
 }
@@ -201,9 +201,9 @@ TEST(NetArguments, FaultsAreNamed) {
             continue;
           }
           std::vector<std::vector<float>> values;
-          const NetReport report = operation.run(nets, shape, values, {.threads = 4});
+          const Report report = operation.run(nets, shape, values, {.threads = 4});
           EXPECT_EQ(to_string(report.status), to_string(status)) << operation.name;
-          EXPECT_EQ(report.patch, patch) << operation.name;
+          EXPECT_EQ(report.item, patch) << operation.name;
           EXPECT_EQ(report.component, component) << operation.name;
           EXPECT_EQ(report.point, point) << operation.name;
           for (const std::vector<float>& result : values) {

@@ -138,9 +138,9 @@ TEST(NetBounds, BadInput) {
   EXPECT_EQ(flatness(batch.nets(), batch.values.data()).status, Status::overlapping_outputs);
   EXPECT_EQ(control_boxes(ControlNets<float>{}, {nullptr, nullptr}).status, Status::ok);
   batch.values[48 + 5] = NAN;
-  const NetReport report = flatness(batch.nets(), flat);
+  const Report report = flatness(batch.nets(), flat);
   EXPECT_EQ(report.status, Status::non_finite_input);
-  EXPECT_EQ(report.patch, 1U);
+  EXPECT_EQ(report.item, 1U);
   EXPECT_EQ(report.point, 1);
   EXPECT_EQ(report.component, 2);
   EXPECT_EQ(flat[0], -1);

@@ -93,7 +93,7 @@ const Call kCalls[] = {
        return pack(curves_of(nets), set).status;
      }},
     {"flatten", false,
-     [](const Nets& nets, Room&) { return flatten<float>(curves_of(nets), 0.01).status; }},
+     [](const Nets& nets, Room&) { return flatten<float>(curves_of(nets), 0.01).report.status; }},
     {"iso_u", true,
      [](const Nets& nets, Room& room) {
        return iso_u(nets, 0.5, Values<double>(std::span(room.doubles))).status;
@@ -115,8 +115,8 @@ const Call kCalls[] = {
     {"tessellate", true,
      [](const Nets& nets, Room&) {
        MeshOptions options;
-       options.tolerance = 0.1;
-       return tessellate(nets, options).status;
+       options.rates.tolerance = 0.1;
+       return tessellate(nets, options).report.status;
      }},
     {"quantisation_box", true,
      [](const Nets& nets, Room&) {

@@ -15,8 +15,8 @@ struct Operation {
   std::string name;
   std::function<bool(const Shape&)> takes;
   /// Results as plain values, one list an output.
-  std::function<NetReport(const ControlNets<T>&, const Shape&, std::vector<std::vector<T>>&,
-                          const Options&)>
+  std::function<Report(const ControlNets<T>&, const Shape&, std::vector<std::vector<T>>&,
+                       const Options&)>
       run;
 };
 
@@ -33,7 +33,7 @@ Operation<T> net_operation(
             for (Batch<T>& batch : batches) {
               out.push_back(batch.out());
             }
-            const NetReport report = call(nets, out, options);
+            const Report report = call(nets, out, options);
             values.clear();
             for (Batch<T>& batch : batches) {
               values.push_back(std::move(batch.values));

@@ -28,8 +28,8 @@ protected:
   static std::vector<std::vector<T>> reference(const Operation<T>& operation,
                                                const Batch<T>& batch) {
     std::vector<std::vector<T>> values;
-    const NetReport report = operation.run(batch.nets(), batch.shape, values,
-                                           {.threads = 1, .isa = available_isas().front()});
+    const Report report = operation.run(batch.nets(), batch.shape, values,
+                                        {.threads = 1, .isa = available_isas().front()});
     EXPECT_EQ(to_string(report.status), to_string(Status::ok)) << operation.name;
     return values;
   }

@@ -177,8 +177,8 @@ TEST_F(Certificates, of_nothing_and_of_what_cannot_run) {
 TEST(PackOptionsTest, an_origin_that_is_not_finite_is_refused) {
   const float points[48] = {};
   PatchSet<float> set;
-  const PackReport report = pack(ControlNets<float>{points, 1}, set,
-                                 relative_to(std::numeric_limits<double>::quiet_NaN()));
+  const Report report = pack(ControlNets<float>{points, 1}, set,
+                             relative_to(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(to_string(report.status), to_string(Status::non_finite_input));
   EXPECT_TRUE(set.empty());
 }

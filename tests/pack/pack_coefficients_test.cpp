@@ -143,9 +143,9 @@ TEST(PackKernel, the_lowest_fault_is_reported_and_the_set_kept) {
       points[49 * kNet] = points[21 * kNet + 4] = std::numeric_limits<float>::quiet_NaN();
       points[21 * kNet + 47] = std::numeric_limits<float>::infinity();
       points[20 * kNet + 3] = 1e37F; // large, and no fault
-      const PackReport report = pack(ControlNets<float>{points.data(), 50}, set, options);
+      const Report report = pack(ControlNets<float>{points.data(), 50}, set, options);
       EXPECT_EQ(report.status, Status::non_finite_input);
-      EXPECT_EQ(report.patch, 21U);
+      EXPECT_EQ(report.item, 21U);
       EXPECT_EQ(report.point, 1);
       EXPECT_EQ(report.component, 1);
       EXPECT_EQ(set.size(), 3U);

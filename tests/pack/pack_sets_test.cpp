@@ -148,9 +148,9 @@ TEST(PackSets, refuses_entries_that_cannot_be_packed) {
     ASSERT_TRUE(pack(first.view, set));
     PackOptions options;
     fault.change(nets[1], options);
-    const PackReport report = pack(std::span<const Nets>(nets), set, options);
+    const Report report = pack(std::span<const Nets>(nets), set, options);
     EXPECT_EQ(to_string(report.status), to_string(fault.status)) << fault.name;
-    EXPECT_EQ(report.patch, fault.patch) << fault.name;
+    EXPECT_EQ(report.item, fault.patch) << fault.name;
     EXPECT_EQ(report.point, fault.point) << fault.name;
     EXPECT_EQ(set.size(), 10U) << fault.name;
   }
@@ -191,10 +191,10 @@ void expect_faults(const std::vector<BadValue>& values, Isa isa, int threads) {
     options.isa = isa;
     options.threads = threads;
     PatchSet<T> set;
-    const PackReport report = pack(std::span<const ControlNets<S>>(all), set, options);
+    const Report report = pack(std::span<const ControlNets<S>>(all), set, options);
     const std::string what = name_of(c) + " " + std::to_string(bad.value);
     EXPECT_EQ(to_string(report.status), to_string(bad.status)) << what;
-    EXPECT_EQ(report.patch, bad.status == Status::ok ? 0 : 51U) << what;
+    EXPECT_EQ(report.item, bad.status == Status::ok ? 0 : 51U) << what;
     EXPECT_EQ(report.component, static_cast<int>(bad.channel) * (bad.status != Status::ok)) << what;
     const bool named = bad.status == Status::bad_weight || bad.status == Status::non_finite_input;
     EXPECT_EQ(report.point, named ? static_cast<int>(kPoint) : 0) << what;

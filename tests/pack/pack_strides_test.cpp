@@ -161,7 +161,7 @@ TEST(PackStrides, counts_that_add_up_beyond_what_fits) {
     second.count += more;
     const ControlNets<double> nets[] = {first, second};
     PatchSet<double> set;
-    const PackReport report = pack(std::span<const ControlNets<double>>(nets), set);
+    const Report report = pack(std::span<const ControlNets<double>>(nets), set);
     EXPECT_EQ(to_string(report.status), to_string(Status::size_overflow)) << more;
     EXPECT_EQ(set.size(), 0U);
   }

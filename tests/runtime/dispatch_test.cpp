@@ -67,7 +67,7 @@ TEST(Dispatch, a_status_is_true_where_it_is_ok) {
   for (int i = 0; i <= Status::snap_too_large; ++i) {
     const Status status = static_cast<Status::Code>(i);
     EXPECT_EQ(static_cast<bool>(status), status == Status::ok);
-    EXPECT_EQ(static_cast<bool>(simdbezier::PackReport{status}), static_cast<bool>(status));
+    EXPECT_EQ(static_cast<bool>(simdbezier::Report{status}), static_cast<bool>(status));
     EXPECT_EQ(status.code(), i);
   }
 }

@@ -78,13 +78,11 @@ struct FakeCall {
 
 std::string run(std::size_t bytes, Destination destination) {
   Log log;
-  Isa executed = Isa::automatic;
   Options options;
   options.threads = 1;
   options.destination = destination;
-  options.executed = &executed;
   const Status status = run_to_destination(FakeCall{&log, bytes}, options);
-  return status && executed == Isa::scalar ? log.ways() : "failed";
+  return status && take_executed_isa() == Isa::scalar ? log.ways() : "failed";
 }
 
 } // namespace

@@ -37,12 +37,10 @@ const char* choice_of_large_grids(simdbezier::Isa resolved) {
     std::vector<float> xyz(3 * kPatches * n * n);
     Outputs<float> out;
     out.position = Vectors<float>::xyz(xyz.data());
-    Isa executed = Isa::automatic;
-    Options options;
-    options.executed = &executed;
-    if (!evaluate(set, Grid<float>::uniform(n, n), out, options)) {
+    if (!evaluate(set, Grid<float>::uniform(n, n), out)) {
       return "refused";
     }
+    const Isa executed = take_executed_isa();
     if (executed != resolved) {
       return fuses_multiply_add(executed) == fuses_multiply_add(resolved) ? "free" : "wrong";
     }
@@ -67,10 +65,8 @@ int main(int argc, char** argv) {
   float xyz[12] = {1};
   Outputs<float> out;
   out.position = Vectors<float>::xyz(xyz);
-  Isa executed = Isa::automatic;
-  Options options;
-  options.executed = &executed;
-  const Status evaluated = evaluate(set, Grid<float>::uniform(2, 2), out, options);
+  const Status evaluated = evaluate(set, Grid<float>::uniform(2, 2), out);
+  const Isa executed = take_executed_isa();
   std::printf("%s %s %s %s %s %s\n", name_of(resolved), name_of(evaluated),
               to_string(chosen).data(), to_string(executed).data(),
               xyz[0] == 1 ? "untouched" : "written", choice_of_large_grids(chosen));

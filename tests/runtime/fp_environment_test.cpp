@@ -48,7 +48,7 @@ protected:
           const ScopedEnvironment environment(test.rounding, test.flush);
           grid(set, samples, planes.outputs(), {.threads = threads});
           PatchSet<T> again;
-          const PackReport report = pack(ControlNets<T>{points.data(), nets.size()}, again);
+          const Report report = pack(ControlNets<T>{points.data(), nets.size()}, again);
           grid(again, samples, repacked.outputs(), {.threads = threads});
           untouched = environment.untouched() && report.status == Status::ok;
         }
@@ -109,7 +109,7 @@ TEST(EnvironmentOfSmallFunctions, IsTheLibrarys) {
     }
     all.push_back(largest_position_bound(set));
     const auto to = MutableNets<float>::packed(reversed.data(), 1, 3, 3, 3, Weights::cartesian);
-    const NetReport report = reverse_u(faulty, to);
+    const Report report = reverse_u(faulty, to);
     all.push_back(report.status == Status::non_finite_input ? 1 : 0);
     all.push_back(static_cast<double>(report.point));
     return all;

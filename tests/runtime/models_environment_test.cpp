@@ -50,7 +50,7 @@ struct CallCase {
 
 void add_mesh(Fnv1a& hash, const Model& model, const MeshOptions& options) {
   const auto mesh = tessellate<double>(model.control, options);
-  hash.add(static_cast<int>(mesh.status.code()));
+  hash.add(static_cast<int>(mesh.report.status.code()));
   hash.add(mesh.deviation);
   add(hash, mesh.positions);
   add(hash, mesh.normals);
@@ -61,11 +61,12 @@ void add_mesh(Fnv1a& hash, const Model& model, const MeshOptions& options) {
 const CallCase kCalls[] = {
     {"tessellate",
      [](const Model& model, Fnv1a& hash) {
-       add_mesh(hash, model, {.relative_tolerance = 5e-2, .normal_angle = 0.7});
+       add_mesh(hash, model, {.rates = {.normal_degrees = 40}, .relative_tolerance = 5e-2});
      }},
     {"tessellate, snapped and creased",
      [](const Model& model, Fnv1a& hash) {
-       add_mesh(hash, model, {.nu = 5, .nv = 4, .snap = model.seventh, .crease_angle = 0.3});
+       add_mesh(hash, model,
+                {.nu = 5, .nv = 4, .topology = {.snap = model.seventh}, .crease_degrees = 17});
      }},
     {"position_errors",
      [](const Model& model, Fnv1a& hash) {
@@ -95,7 +96,7 @@ const CallCase kCalls[] = {
        const auto rows =
            ControlCurves<double>::packed(model.points.data(), 4 * model.set.size(), 3);
        const auto lines = flatten<double>(rows, model.tolerance);
-       hash.add(static_cast<int>(lines.status.code()));
+       hash.add(static_cast<int>(lines.report.status.code()));
        hash.add(lines.deviation);
        add(hash, lines.points);
      }},

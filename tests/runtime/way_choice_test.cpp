@@ -210,14 +210,12 @@ TEST(WayChoice, what_two_calls_agree_about_is_kept) {
       log.new_page = step.new_page;
       log.new_from = step.new_from;
       left_in_caches = kPatchesInCaches;
-      Isa executed = Isa::automatic;
       Options options;
       options.threads = 1;
-      options.executed = &executed;
       options.destination = c.destination;
       const FakeCall call{name, step.fastest, step.bytes, step.alike, &log};
       ASSERT_EQ(run_to_destination(call, options), Status::ok);
-      EXPECT_EQ(executed, Isa::scalar);
+      EXPECT_EQ(take_executed_isa(), Isa::scalar);
       EXPECT_EQ(log.used[1] + log.used[2] + log.used[3], step.ways);
       EXPECT_EQ(log.way.back(), step.last);
       for (const Way way : log.way) {

@@ -100,14 +100,11 @@ TEST(WidthChoice, the_first_call_decides_and_later_ones_keep_to_it) {
     SCOPED_TRACE(c.name);
     for (int call = 0; call < 3; ++call) {
       Log log;
-      Isa executed = Isa::automatic;
-      Options options;
-      options.executed = &executed;
       const FakeCall fake{
           static_cast<std::uint64_t>(&c - kCases), c.choice, c.wide, c.narrow, c.nanoseconds, &log};
-      EXPECT_EQ(run_in_cache(fake, options), Status::ok);
+      EXPECT_EQ(run_in_cache(fake, Options{}), Status::ok);
       const Isa expected = call == 0 ? c.first : c.later;
-      EXPECT_EQ(executed, expected) << call;
+      EXPECT_EQ(take_executed_isa(), expected) << call;
       EXPECT_EQ(log.last, std::vector<Isa>(kPatches * kStrips, expected)) << call;
       const bool both = log.runs[0] > 0 && log.runs[1] > 0;
       EXPECT_EQ(both, call == 0 && c.measured) << call;

@@ -145,7 +145,7 @@ TEST(SplineArguments, BadOnesAreRefused) {
     SCOPED_TRACE(bad.name);
     Given given;
     bad.spoil(given);
-    const SplineReport report = to_bezier(given.surface, given.out, given.intervals);
+    const Report report = to_bezier(given.surface, given.out, given.intervals);
     EXPECT_EQ(to_string(report.status), to_string(bad.status));
     EXPECT_EQ(report.point, bad.point);
     EXPECT_EQ(report.component, bad.component);
@@ -160,9 +160,9 @@ TEST(SplineArguments, TheSurfaceAtFaultIsNamed) {
   bad.points[0] = kNan;
   const SplineSurface<double> surfaces[] = {good.surface, good.surface, bad.surface};
   PatchSet<double> set;
-  const SplineReport report = pack(std::span<const SplineSurface<double>>(surfaces), set);
+  const Report report = pack(std::span<const SplineSurface<double>>(surfaces), set);
   EXPECT_EQ(report.status, Status::non_finite_input);
-  EXPECT_EQ(report.surface, 2U);
+  EXPECT_EQ(report.item, 2U);
   EXPECT_TRUE(set.empty());
 }
 
@@ -190,7 +190,7 @@ TEST(SplineArguments, PlacesAreInsideOfTheDomain) {
                                  Outside{kNan, Status::non_finite_input}}) {
     const double at[] = {0, 1, outside.parameter};
     std::uint32_t untouched[3] = {9, 9, 9};
-    const SplineReport report = locate(given.surface, 3, at, v_inside, {untouched});
+    const Report report = locate(given.surface, 3, at, v_inside, {untouched});
     EXPECT_EQ(report.status, outside.status);
     EXPECT_EQ(report.point, 2U);
     EXPECT_EQ(untouched[0], 9U);

@@ -81,9 +81,8 @@ class JunctionTest : public IsaTest {
 protected:
   template <typename T>
   CutSurface<T> cut(const SplineSurface<T>& surface) {
-    Isa executed = Isa::automatic;
-    CutSurface<T> result(surface, {.threads = 1, .isa = isa(), .executed = &executed});
-    expect_ran(result.report.status, executed);
+    CutSurface<T> result(surface, {.threads = 1, .isa = isa()});
+    expect_ran(result.report.status, take_executed_isa());
     return result;
   }
 

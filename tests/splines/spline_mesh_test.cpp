@@ -124,7 +124,7 @@ TYPED_TEST(SplineMeshes, AreMeshesOfNetsThatKnowWhatCuttingRounded) {
     options.nu = options.nv = 3;
     options.drop_repeated = left_out;
     options.split_edges = left_out;
-    SplineReport report{Status::bad_range};
+    Report report{Status::bad_range};
     const auto mesh = tessellate<T>(std::span<const SplineSurface<T>>(surfaces), options, &report);
     const auto of_nets = tessellate<T>(std::span<const ControlNets<T>>(nets), options);
     const auto plan = plan_mesh<T>(std::span<const SplineSurface<T>>(surfaces), options);
@@ -153,12 +153,12 @@ TYPED_TEST(SplineMeshes, KeepNoToleranceThatCuttingExceeds) {
   const ControlNets<T> nets = cut.nets;
   // Results in double are so close to the nets that it is cutting alone that leaves no room.
   MeshOptions options;
-  options.tolerance = 0.9 * extraction_error(surface);
-  EXPECT_EQ(tessellate<double>(surface, options).status, Status::bad_tolerance);
-  options.tolerance = 1e-3 * plan_mesh<double>(nets, {.nu = 2, .nv = 2}).diagonal;
+  options.rates.tolerance = 0.9 * extraction_error(surface);
+  EXPECT_EQ(tessellate<double>(surface, options).report.status, Status::bad_tolerance);
+  options.rates.tolerance = 1e-3 * plan_mesh<double>(nets, {.nu = 2, .nv = 2}).diagonal;
   const auto mesh = tessellate<double>(surface, options);
   ASSERT_TRUE(mesh);
-  EXPECT_LE(mesh.deviation, options.tolerance);
+  EXPECT_LE(mesh.deviation, options.rates.tolerance);
 }
 
 // Points of a pole that are one but not equal: patches have one of them, and the bound says so.
@@ -196,22 +196,22 @@ TEST(SplineMeshReports, NameTheSurface) {
     std::vector<SplineSurface<double>> surfaces = {models[0].view(), models[1].view(),
                                                    models[1].view()};
     spoil(surfaces);
-    SplineReport report;
+    Report report;
     const auto mesh = tessellate<double>(std::span<const SplineSurface<double>>(surfaces),
                                          {.nu = 2, .nv = 2}, &report);
-    EXPECT_EQ(mesh.status, report.status);
+    EXPECT_EQ(mesh.report.status, report.status);
     EXPECT_TRUE(mesh.positions.empty());
     return report;
   };
-  const SplineReport components = report_of([](auto& all) { all[2].components = 2; });
+  const Report components = report_of([](auto& all) { all[2].components = 2; });
   EXPECT_EQ(components.status, Status::bad_components);
-  EXPECT_EQ(components.surface, 2U);
-  const SplineReport knots = report_of([](auto& all) { all[2].knots_v = all[2].knots_v.first(4); });
+  EXPECT_EQ(components.item, 2U);
+  const Report knots = report_of([](auto& all) { all[2].knots_v = all[2].knots_v.first(4); });
   EXPECT_EQ(knots.status, Status::bad_knots);
-  EXPECT_EQ(knots.surface, 2U);
+  EXPECT_EQ(knots.item, 2U);
   EXPECT_EQ(knots.component, 1);
   models[0].at(1, 2, 1) = std::numeric_limits<double>::infinity();
-  const SplineReport point = report_of([](auto&) {});
+  const Report point = report_of([](auto&) {});
   EXPECT_EQ(point.status, Status::non_finite_input);
   EXPECT_EQ(point.point, models[0].u.points + 2);
 }

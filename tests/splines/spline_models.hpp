@@ -240,7 +240,7 @@ struct CutSurface {
   MutableNets<T> nets;
   std::vector<T> values;
   std::vector<PatchInterval> intervals;
-  SplineReport report;
+  Report report;
 
   explicit CutSurface(const SplineSurface<T>& surface, const Options& options = {})
       : spans(span_count(surface)) {

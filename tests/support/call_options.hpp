@@ -16,15 +16,15 @@ struct CallOptions {
   int threads = 0;
   bool watertight = true;
   Isa isa = Isa::automatic;
-  Isa* executed = nullptr;
   Destination destination = Destination::automatic;
   int first_component = 0;
   std::size_t first_patch = 0; ///< or curve
   std::size_t patch_count = SetRange::kToTheEnd;
 
   operator Options() const { // NOLINT: for calls that have no parts
-    return {threads, watertight, isa, executed, destination};
+    return {threads, isa, watertight, destination};
   }
+  operator RunOptions() const { return {threads, isa}; } // NOLINT: likewise
   [[nodiscard]] SetRange range() const { return {first_patch, patch_count}; }
 };
 

@@ -30,10 +30,10 @@ template <typename T>
 }
 
 /// Throws where the library refuses to pack, which fails the test.
-inline void expect_packed(const PackReport& report) {
+inline void expect_packed(const Report& report) {
   if (!report) {
     throw std::runtime_error("pack: " + std::string(to_string(report.status)) + " at patch " +
-                             std::to_string(report.patch));
+                             std::to_string(report.item));
   }
 }
 

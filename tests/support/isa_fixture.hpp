@@ -51,11 +51,10 @@ protected:
   /// call(options): an evaluate call with these options, except for the instruction set.
   template <typename How = CallOptions, typename Call>
   void run(How options, const Call& call) {
-    Isa executed = Isa::automatic;
     options.isa = isa();
-    options.executed = &executed;
+    static_cast<void>(take_executed_isa()); // of calls before
     const Status status = call(options);
-    expect_ran(status, executed);
+    expect_ran(status, take_executed_isa());
   }
 
   /// Counts calls that take their own path to the library (other evaluators, other threads).

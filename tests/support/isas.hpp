@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 namespace simdbezier::tests {
 

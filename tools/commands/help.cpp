@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 namespace simdbezier::tools {
 

@@ -56,18 +56,19 @@ bool is_too_fine(Status status) {
 // Whether the patch would have its rates without the angle.
 template <typename T>
 bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
-                             const CertifiedRates& rates, std::size_t patch) {
-  how.normal_angle = kUnlimited;
-  const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
-  return !is_too_fine(report.status) || report.patch != patch;
+                             const CertifiedRates& rates, const RunOptions& run,
+                             std::size_t patch) {
+  how.normal_degrees = kUnlimited;
+  const Report report = choose_rates<T>(patches.nets, patches.topology, how, rates, run);
+  return !is_too_fine(report.status) || report.item != patch;
 }
 
 // Throws a Failure that says why the patch cannot keep its distance: rounding, edges that are moved
 // together, or too many cells.
 template <typename T>
 [[noreturn]] void refuse_distance(const RatedPatches<T>& patches, const MeshArguments& mesh,
-                                  const Tolerances& tolerances, const RateReport& report) {
-  const std::size_t patch = report.patch;
+                                  const Tolerances& tolerances, const Report& report) {
+  const std::size_t patch = report.item;
   const std::string name = patches.describe(patch);
   const double found = tolerances.of(patch);
   const double error = patches.errors[patch] + patches.storage_error;
@@ -118,8 +119,8 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
   const Tolerances tolerances = find_tolerances(patches, mesh);
   RateOptions how;
   how.errors = patches.errors;
-  how.normal_angle = mesh.angle ? *mesh.angle * kRadiansPerDegree : kUnlimited;
-  how.threads = arguments.threads;
+  how.normal_degrees = mesh.angle.value_or(kUnlimited);
+  const RunOptions run{.threads = arguments.threads};
   std::vector<double> single;
   const auto choose = [&](double storage_error) {
     single.resize(tolerances.single.size());
@@ -127,17 +128,17 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
                            [&](double t) { return without(t, storage_error); });
     how.tolerance = without(tolerances.all, storage_error);
     how.tolerances = single;
-    return choose_rates<T>(patches.nets, patches.topology, how, rates);
+    return choose_rates<T>(patches.nets, patches.topology, how, rates, run);
   };
-  RateReport report = choose(0);
+  Report report = choose(0);
   if (report.status && !keep(tolerances, rates.deviation, patches.storage_error)) {
     report = choose(patches.storage_error);
   }
   if (is_too_fine(report.status)) {
-    if (mesh.angle && asks_too_small_an_angle(patches, how, rates, report.patch)) {
+    if (mesh.angle && asks_too_small_an_angle(patches, how, rates, run, report.item)) {
       bad_input("--angle: expected degrees that " + std::to_string(kMostSegments) +
                 " cells a direction can keep, found " + shortest(*mesh.angle) + " for " +
-                patches.describe(report.patch));
+                patches.describe(report.item));
     }
     refuse_distance(patches, mesh, tolerances, report);
   }
@@ -153,10 +154,10 @@ void choose_uniform(const RatedPatches<T>& patches, const Arguments& arguments,
               " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
               std::to_string(grid.nv));
   }
-  std::ranges::fill(rates.nu, static_cast<std::uint32_t>(grid.nu - 1));
-  std::ranges::fill(rates.nv, static_cast<std::uint32_t>(grid.nv - 1));
+  std::ranges::fill(rates.cells_u, static_cast<std::uint32_t>(grid.nu - 1));
+  std::ranges::fill(rates.cells_v, static_cast<std::uint32_t>(grid.nv - 1));
   std::size_t raised = 0;
-  check(separate_vertices(patches.topology, rates.nu, rates.nv, raised));
+  check(separate_vertices(patches.topology, rates.cells_u, rates.cells_v, raised));
   check(certify_rates<T>(patches.nets, patches.topology, patches.errors, rates,
                          {.threads = arguments.threads})
             .status);
@@ -180,11 +181,11 @@ template <typename T>
 MeshRates choose_mesh_rates(const RatedPatches<T>& patches, const Arguments& arguments) {
   const std::size_t count = patches.errors.size();
   MeshRates chosen;
-  chosen.nu.resize(count);
-  chosen.nv.resize(count);
+  chosen.cells_u.resize(count);
+  chosen.cells_v.resize(count);
   chosen.diagonals.resize(count);
   chosen.deviations.resize(count);
-  const CertifiedRates rates{chosen.nu, chosen.nv, chosen.diagonals, chosen.deviations};
+  const CertifiedRates rates{chosen.cells_u, chosen.cells_v, chosen.diagonals, chosen.deviations};
   arguments.mesh.adaptive() ? choose_adaptive(patches, arguments, rates)
                             : choose_uniform(patches, arguments, rates);
   // Nothing is claimed to be exact, even if no rounding can be found.

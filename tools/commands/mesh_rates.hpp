@@ -13,8 +13,8 @@ namespace simdbezier::tools {
 
 /// The cells of every patch, one value a patch, and the certified deviation of all.
 struct MeshRates {
-  std::vector<std::uint32_t> nu;
-  std::vector<std::uint32_t> nv;
+  std::vector<std::uint32_t> cells_u;
+  std::vector<std::uint32_t> cells_v;
   std::vector<std::uint16_t> diagonals;
   std::vector<double> deviations;
   double deviation = 0;

@@ -59,10 +59,8 @@ WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats&
   }
   const Stopwatch watch(stats_.seconds.topology);
   if (arguments_.mesh.crease) {
-    Options options;
-    options.threads = arguments_.threads;
-    check(split_creases(set_, layout_, *arguments_.mesh.crease * kRadiansPerDegree, layout_,
-                        options));
+    check(split_creases(set_, layout_, *arguments_.mesh.crease, layout_,
+                        {.threads = arguments_.threads}));
   }
   if (arguments_.mesh.parameters) {
     check(split_parameters(layout_, layout_));
@@ -126,8 +124,7 @@ template <typename T>
 void WeldedMesh<T>::split() {
   SplitOptions how;
   how.snap = arguments_.mesh.snap;
-  how.threads = arguments_.threads;
-  check(split_edges(views(nets_), pieces_, how));
+  check(split_edges(views(nets_), pieces_, how, {.threads = arguments_.threads}));
   nets_.nets = pieces_.nets;
   patches_ = own_.count = pieces_.pieces.size(); // of a whole model
   stats_.splits = pieces_.counts;
@@ -159,8 +156,8 @@ void WeldedMesh<T>::find_edges(bool orient) {
   how.flip = arguments_.mesh.flip;
   how.snap = std::max(arguments_.mesh.snap, pieces_.snap);
   how.point_size = arguments_.mesh.point_size;
-  how.threads = arguments_.threads;
-  const Status status = find_topology(views(nets_), topology_, how);
+  const Status status =
+      find_topology(views(nets_), topology_, how, {.threads = arguments_.threads});
   if (status == Status::not_orientable) {
     bad_input("--orient: expected patches that can be turned to agree with their neighbours, found "
               "a surface of one side in " +
@@ -179,8 +176,8 @@ void WeldedMesh<T>::choose_cells() {
 
 template <typename T>
 void WeldedMesh<T>::lay_out() {
-  const Status status = lay_out_mesh(topology_, {rates_.nu, rates_.nv, rates_.diagonals}, layout_,
-                                     {.threads = arguments_.threads});
+  const Status status = lay_out_mesh(topology_, {rates_.cells_u, rates_.cells_v, rates_.diagonals},
+                                     layout_, {.threads = arguments_.threads});
   if (status == Status::size_overflow) {
     bad_input(resolution_options(arguments_.mesh) + ": expected at most " +
               std::to_string(kMostMeshVertices) + " vertices, found more");

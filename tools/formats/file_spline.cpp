@@ -17,7 +17,7 @@ namespace {
 
 /// What is expected of a direction that the library refuses, and what is found.
 std::pair<std::string, std::string> complaint(const SplineDirection& direction, double tolerance,
-                                              const SplineReport& report) {
+                                              const Report& report) {
   const std::vector<double>& knots = direction.knots;
   const auto order = static_cast<std::size_t>(direction.degree) + 1;
   if (report.status == Status::bad_grid) {
@@ -53,9 +53,9 @@ std::pair<std::string, std::string> complaint(const SplineDirection& direction, 
 void require_knots(const std::string& file, const FileSpline& spline,
                    const SplineSurface<double>& surface) {
   const bool lacks_u = spline.u.knots.empty();
-  const SplineReport report = lacks_u || spline.v.knots.empty()
-                                  ? SplineReport{Status::bad_knots, 0, 0, lacks_u ? 0 : 1}
-                                  : locate(surface, 0, nullptr, nullptr, {});
+  const Report report = lacks_u || spline.v.knots.empty()
+                            ? Report{Status::bad_knots, 0, 0, lacks_u ? 0 : 1}
+                            : locate(surface, 0, nullptr, nullptr, {});
   if (report.status == Status::bad_grid || report.status == Status::bad_knots ||
       report.status == Status::bad_range) {
     const bool is_v = report.component == 1;
@@ -107,7 +107,7 @@ void PatchFile::close_spline(const FileSpline& spline) {
   nets.point_stride = static_cast<std::ptrdiff_t>(stride);
   nets.row_stride = nets.point_stride * static_cast<std::ptrdiff_t>(order_u);
   nets.patch_stride = nets.row_stride * static_cast<std::ptrdiff_t>(order_v);
-  const SplineReport report = to_bezier(surface, nets);
+  const Report report = to_bezier(surface, nets);
   if (report.status == Status::non_finite_input || report.status == Status::bad_weight) {
     bad_input_at(name, spline.line, "finite coordinates and weights above 0", "others");
   }

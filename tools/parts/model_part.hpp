@@ -12,7 +12,7 @@
 
 namespace simdbezier::tools {
 
-/// Patches of its own, between ghosts before and behind them (mesh_parts.hpp); or a whole model,
+/// Patches of its own, between ghosts before and behind them (mesh_layout.hpp); or a whole model,
 /// which has no ghosts.
 struct ModelPart {
   PatchFile file;                     ///< own patches and ghosts, in the order of the model

@@ -9,7 +9,7 @@ namespace simdbezier::tools {
 namespace {
 
 template <typename T>
-[[noreturn]] void refuse(const PatchFile& file, std::size_t patch, const PackReport& report) {
+[[noreturn]] void refuse(const PatchFile& file, std::size_t patch, const Report& report) {
   const auto point = static_cast<std::size_t>(report.point);
   const std::string type = sizeof(T) == sizeof(float) ? "f32" : "f64";
   const auto found = [&] {
@@ -36,8 +36,8 @@ template <typename T>
 template <typename T, typename F>
 PatchSet<T> pack_nets(const PatchFile& file, const PatchNets<T>& in, F&& patch_of) {
   PatchSet<T> set;
-  if (const PackReport report = pack(std::span(in.nets), set); !report) {
-    refuse<T>(file, patch_of(report.patch), report);
+  if (const Report report = pack(std::span(in.nets), set); !report) {
+    refuse<T>(file, patch_of(report.item), report);
   }
   return set;
 }

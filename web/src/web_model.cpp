@@ -161,9 +161,9 @@ void TypedModel<T>::lay_out(const tools::Arguments& arguments) {
                                                         file_.name,
                                                         {}},
                                                        arguments);
-  check(lay_out_mesh(topology_, {rates.nu, rates.nv, rates.diagonals}, layout_, Options{}));
+  check(lay_out_mesh(topology_, {rates.cells_u, rates.cells_v, rates.diagonals}, layout_));
   if (mesh.crease) {
-    check(split_creases(set_, layout_, *mesh.crease * tools::kRadiansPerDegree, layout_));
+    check(split_creases(set_, layout_, *mesh.crease, layout_));
   }
   if (mesh.parameters) {
     check(split_parameters(layout_, layout_));

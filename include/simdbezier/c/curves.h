@@ -1,4 +1,4 @@
-// curves.hpp, iso_curves.hpp: curves at parameters, and curves on patches.
+// curves.hpp: curves at parameters, and curves on patches.
 #pragma once
 
 #include <simdbezier/c/sets.h>

@@ -1,4 +1,4 @@
-// evaluate.hpp, tiles.hpp, derivatives.hpp: a set's patches at samples.
+// evaluate.hpp: a set's patches at samples.
 #pragma once
 
 #include <simdbezier/c/sets.h>

@@ -1,4 +1,4 @@
-// mesh_parts.hpp: parts of a model that several processes work on; single vertices of a layout.
+// mesh_layout.hpp: parts of a model that several processes work on; single vertices of a layout.
 #pragma once
 
 #include <simdbezier/c/curves.h> // names of edges

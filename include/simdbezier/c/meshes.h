@@ -1,4 +1,4 @@
-// mesh_primitives.hpp, evaluate_mesh.hpp, mesh.hpp: the cells of a mesh as triangles, polygons,
+// mesh_layout.hpp, evaluate_mesh.hpp, mesh.hpp: the cells of a mesh as triangles, polygons,
 // strips or clusters; its vertices; all of it in one call.
 #pragma once
 
@@ -90,7 +90,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_evaluate_mesh_attributes(
 // split_creases().
 SIMDBEZIER_API simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
                                                           const simdbezier_mesh_layout* layout,
-                                                          double angle,
+                                                          double degrees,
                                                           const simdbezier_options* options,
                                                           simdbezier_mesh_layout** split);
 // split_parameters().
@@ -108,13 +108,13 @@ typedef struct simdbezier_mesh_options {
   double pixels;
   const simdbezier_camera* camera; // needed by pixels
   double longest_edge;
-  double normal_angle;
+  double normal_degrees;
   uint32_t nu; // samples of every patch, instead of tolerances
   uint32_t nv;
   double point_size;
   double snap;
-  double crease_angle; // in radians; 0: all normals are merged
-  int32_t unshared;    // not 0: patches share no vertices
+  double crease_degrees; // 0: all normals are merged
+  int32_t unshared;      // not 0: patches share no vertices
   int32_t orient;
   int32_t flip;
   int32_t drop_repeated;
@@ -181,8 +181,8 @@ typedef struct simdbezier_mesh_plan_parts {
   const simdbezier_mesh_layout* layout;
   size_t patch_count;      // of the set: that many values each below
   const uint32_t* patches; // the number of each among those given; null: the same numbers
-  const uint32_t* nu;
-  const uint32_t* nv;
+  const uint32_t* cells_u;
+  const uint32_t* cells_v;
   const double* deviations;
   double deviation;
   double diagonal;

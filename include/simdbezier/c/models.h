@@ -1,4 +1,4 @@
-// adjacency.hpp, topology.hpp, rates.hpp, mesh_layout.hpp: which edges of a model are one, how many
+// topology.hpp, rates.hpp, mesh_layout.hpp: which edges of a model are one, how many
 // cells its patches need, and what its vertices are. Nets of a call have one type.
 #pragma once
 
@@ -80,13 +80,13 @@ enum { SIMDBEZIER_MOST_SEGMENTS = 4096, SIMDBEZIER_MOST_GRID_CELLS = 1 << 20 };
 // RateOptions.
 typedef struct simdbezier_rate_options {
   size_t struct_size;
-  double tolerance;         // infinity: any
-  const double* tolerances; // one value a patch, instead of `tolerance`; or null
+  double tolerance;         // 0: none, as below
+  const double* tolerances; // one value a patch, in addition to `tolerance`; or null
   size_t tolerances_length;
   const double* errors; // simdbezier_position_errors(), or null
   size_t errors_length;
-  double longest_edge;    // 0: no limit
-  double normal_angle;    // 0: no limit
+  double longest_edge;
+  double normal_degrees;
   uint32_t most_segments; // 0: SIMDBEZIER_MOST_SEGMENTS
   int32_t threads;
   simdbezier_isa isa;
@@ -116,17 +116,17 @@ SIMDBEZIER_API simdbezier_status simdbezier_pixel_tolerances(const simdbezier_ne
 // CertifiedRates: one value a patch each. diagonals: a patch's cells are cut as PatchRates says.
 typedef struct simdbezier_rates {
   size_t struct_size;
-  uint32_t* nu;
-  size_t nu_length;
-  uint32_t* nv;
-  size_t nv_length;
+  uint32_t* cells_u;
+  size_t cells_u_length;
+  uint32_t* cells_v;
+  size_t cells_v_length;
   uint16_t* diagonals;
   size_t diagonals_length;
   double* deviation; // may be null
   size_t deviation_length;
 } simdbezier_rates;
 
-// choose_rates(), certify_rates(); the latter reads nu and nv, and errors may be null.
+// choose_rates(), certify_rates(); the latter reads cells_u and cells_v, and errors may be null.
 SIMDBEZIER_API simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t length,
                                                          const simdbezier_topology* topology,
                                                          const simdbezier_rate_options* options,
@@ -136,17 +136,16 @@ SIMDBEZIER_API simdbezier_status simdbezier_certify_rates(
     const double* errors, size_t errors_length, const simdbezier_rates* rates, int32_t threads);
 // certify_grids(): deviation has one value a patch; errors has as many, or is null.
 SIMDBEZIER_API simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets,
-                                                          size_t length, uint32_t nu, uint32_t nv,
-                                                          const double* errors,
+                                                          size_t length, uint32_t cells_u,
+                                                          uint32_t cells_v, const double* errors,
                                                           size_t errors_length, double* deviation,
                                                           size_t deviation_length, int32_t threads);
 // separate_vertices(): raises small rates; `raised` may be null.
-SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology,
-                                                              uint32_t* nu, size_t nu_length,
-                                                              uint32_t* nv, size_t nv_length,
-                                                              size_t* raised);
+SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(
+    const simdbezier_topology* topology, uint32_t* cells_u, size_t cells_u_length,
+    uint32_t* cells_v, size_t cells_v_length, size_t* raised);
 
-// lay_out_mesh(): of nu, nv and, if not null, diagonals. Of the options, threads count.
+// lay_out_mesh(): of cells_u, cells_v and, if not null, diagonals. Of the options, threads count.
 SIMDBEZIER_API simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
                                                          const simdbezier_rates* rates,
                                                          const simdbezier_options* options,

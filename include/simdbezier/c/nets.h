@@ -1,4 +1,4 @@
-// nets.hpp, bases.hpp, bounds.hpp: nets from nets, and bounds. Nets of a call have one type.
+// nets.hpp, bounds.hpp: nets from nets, and bounds. Nets of a call have one type.
 #pragma once
 
 #include <simdbezier/c/sets.h>
@@ -69,7 +69,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_transpose(const simdbezier_nets* net
                                                       const simdbezier_mutable_nets* out,
                                                       const simdbezier_options* options);
 
-// Basis of bases.hpp.
+// Basis of nets.hpp.
 typedef int32_t simdbezier_basis;
 enum {
   SIMDBEZIER_BASIS_POWER,

@@ -1,4 +1,4 @@
-// Packed sets: control_nets.hpp, control_curves.hpp, patch_set.hpp, error_bounds.hpp.
+// Packed sets: control_nets.hpp, patch_set.hpp, bounds.hpp.
 #pragma once
 
 #include <simdbezier/c/types.h>

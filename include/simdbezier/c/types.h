@@ -93,7 +93,7 @@ enum { SIMDBEZIER_POLYNOMIAL, SIMDBEZIER_CARTESIAN, SIMDBEZIER_HOMOGENEOUS };
 typedef int32_t simdbezier_parameters;
 enum { SIMDBEZIER_UNIT, SIMDBEZIER_CENTRED };
 
-// Instruction sets: isa.hpp.
+// Instruction sets: options.hpp.
 typedef int32_t simdbezier_isa;
 enum {
   SIMDBEZIER_ISA_AUTOMATIC,
@@ -113,6 +113,9 @@ SIMDBEZIER_API int simdbezier_fuses_multiply_add(simdbezier_isa isa);
 SIMDBEZIER_API simdbezier_status simdbezier_resolve_isa(simdbezier_isa requested,
                                                         simdbezier_isa* chosen);
 
+// take_executed_isa(): what ran this thread's last call that evaluated; automatic: none since.
+SIMDBEZIER_API simdbezier_isa simdbezier_take_executed_isa(void);
+
 // Destination of options.hpp.
 typedef int32_t simdbezier_destination;
 enum { SIMDBEZIER_TO_AUTOMATIC, SIMDBEZIER_TO_CACHE, SIMDBEZIER_TO_MEMORY };
@@ -124,10 +127,9 @@ typedef struct simdbezier_options {
   int32_t not_watertight; // not 0: edges come from the interior's formula
   simdbezier_isa isa;
   simdbezier_destination destination;
-  simdbezier_isa* executed; // if given, receives the instruction set that ran
 } simdbezier_options;
 
-// Vectors of vectors.hpp: component c of sample k is c-th pointer [k * stride], all strides
+// Vectors of outputs.hpp: component c of sample k is c-th pointer [k * stride], all strides
 // positive. All zero: not asked for.
 typedef struct simdbezier_vectors {
   void* x;
@@ -138,7 +140,7 @@ typedef struct simdbezier_vectors {
   simdbezier_scalar scalar;
 } simdbezier_vectors;
 
-// Values of vectors.hpp: one value a sample. All zero: not asked for.
+// Values of outputs.hpp: one value a sample. All zero: not asked for.
 typedef struct simdbezier_values {
   void* first;
   size_t length;

@@ -1,4 +1,4 @@
-// vertex_formats.hpp: vertices of a mesh in the formats that graphics processors and glTF read.
+// evaluate_mesh.hpp: vertices of a mesh in the formats that graphics processors and glTF read.
 #pragma once
 
 #include <simdbezier/c/models.h>

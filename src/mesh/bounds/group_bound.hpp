@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "src/mesh/bounds/bound_parts.hpp"
 #include "src/mesh/bounds/separable_bound.hpp"

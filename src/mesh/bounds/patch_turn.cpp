@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include <simdbezier/control_nets.hpp>
 #include <simdbezier/mesh_layout.hpp>
-#include <simdbezier/patch_edge.hpp>
 
 #include "src/mesh/topology/topology_data.hpp"
 

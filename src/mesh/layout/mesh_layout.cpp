@@ -119,8 +119,8 @@ Status build_layout(const Topology& topology, const PatchRates& rates, MeshData&
                     int threads) {
   const TopologyData& data = *topology.data();
   mesh.topology = topology;
-  mesh.nu.assign(rates.nu.begin(), rates.nu.end());
-  mesh.nv.assign(rates.nv.begin(), rates.nv.end());
+  mesh.nu.assign(rates.cells_u.begin(), rates.cells_u.end());
+  mesh.nv.assign(rates.cells_v.begin(), rates.cells_v.end());
   mesh.diagonals.assign(rates.diagonals.begin(), rates.diagonals.end());
   mesh.diagonals.resize(data.patches());
   SegmentCounts(data, mesh, threads).run();
@@ -130,9 +130,9 @@ Status build_layout(const Topology& topology, const PatchRates& rates, MeshData&
 } // namespace detail
 
 Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayout& layout,
-                    const Options& options) noexcept try {
+                    const RunOptions& options) noexcept try {
   const std::size_t patches = topology.counts().patches;
-  if (!detail::are_rates(topology, rates.nu) || !detail::are_rates(topology, rates.nv) ||
+  if (!detail::are_rates(topology, rates.cells_u) || !detail::are_rates(topology, rates.cells_v) ||
       !(rates.diagonals.empty() || rates.diagonals.size() == patches)) {
     return Status::bad_rates;
   }

@@ -1,5 +1,5 @@
-// Numbers of vertices in the mesh of a whole model, and of single ones; see mesh_parts.hpp.
-#include <simdbezier/mesh_parts.hpp>
+// Numbers of vertices in the mesh of a whole model, and of single ones; see mesh_layout.hpp.
+#include <simdbezier/mesh_layout.hpp>
 
 #include <algorithm>
 

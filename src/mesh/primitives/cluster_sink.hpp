@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "src/mesh/layout/cells.hpp"
 

@@ -1,11 +1,11 @@
-// What the calls of mesh_primitives.hpp check.
+// What the calls of mesh_layout.hpp check.
 #pragma once
 
 #include <cstddef>
 #include <limits>
 #include <span>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/mesh_layout.hpp>
 
 #include "src/calls/call.hpp"
 #include "src/mesh/layout/mesh_data.hpp"

@@ -1,5 +1,5 @@
-// See mesh_primitives.hpp.
-#include <simdbezier/mesh_primitives.hpp>
+// See mesh_layout.hpp.
+#include <simdbezier/mesh_layout.hpp>
 
 #include <atomic>
 #include <limits>
@@ -115,7 +115,7 @@ Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterS
 } // namespace
 } // namespace detail
 
-Status polygon_size(const MeshLayout& layout, PolygonSize& size, const Options& options,
+Status polygon_size(const MeshLayout& layout, PolygonSize& size, const RunOptions& options,
                     SetRange patches) noexcept try {
   detail::PatchRange range;
   if (!range.resolve(layout, patches)) {
@@ -131,7 +131,7 @@ Status polygon_size(const MeshLayout& layout, PolygonSize& size, const Options& 
 
 template <typename Index>
 Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
-                      std::span<std::uint8_t> sizes, const Options& options,
+                      std::span<std::uint8_t> sizes, const RunOptions& options,
                       SetRange patches) noexcept try {
   detail::PatchRange range;
   if (!range.resolve(layout, patches)) {
@@ -159,8 +159,8 @@ Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
   return Status::out_of_memory;
 }
 
-Status strip_size(const MeshLayout& layout, std::size_t& indices, const Options& options) noexcept
-    try {
+Status strip_size(const MeshLayout& layout, std::size_t& indices,
+                  const RunOptions& options) noexcept try {
   std::vector<std::size_t> sizes;
   const Status status = detail::strip_sizes(layout, options.threads, sizes);
   indices = status == Status::ok ? sizes.back() : indices;
@@ -171,7 +171,7 @@ Status strip_size(const MeshLayout& layout, std::size_t& indices, const Options&
 
 template <typename Index>
 Status write_strips(const MeshLayout& layout, std::span<Index> indices,
-                    const Options& options) noexcept try {
+                    const RunOptions& options) noexcept try {
   std::vector<std::size_t> before;
   Status status = detail::strip_sizes(layout, options.threads, before);
   if (status == Status::ok) {
@@ -190,7 +190,7 @@ Status write_strips(const MeshLayout& layout, std::span<Index> indices,
   return Status::out_of_memory;
 }
 
-Status cluster_size(const MeshLayout& layout, ClusterSize& size, const Options& options) noexcept
+Status cluster_size(const MeshLayout& layout, ClusterSize& size, const RunOptions& options) noexcept
     try {
   std::vector<ClusterSize> sizes;
   const Status status = detail::cluster_sizes(layout, options.threads, sizes);
@@ -201,7 +201,7 @@ Status cluster_size(const MeshLayout& layout, ClusterSize& size, const Options& 
 }
 
 Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
-                      const Options& options) noexcept try {
+                      const RunOptions& options) noexcept try {
   std::vector<ClusterSize> before;
   const Status status = detail::cluster_sizes(layout, options.threads, before);
   const ClusterSize& all = before.back();
@@ -232,14 +232,14 @@ Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
 }
 
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
-                                              std::span<std::uint8_t>, const Options&,
+                                              std::span<std::uint8_t>, const RunOptions&,
                                               SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,
-                                              std::span<std::uint8_t>, const Options&,
+                                              std::span<std::uint8_t>, const RunOptions&,
                                               SetRange) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint32_t>,
-                                            const Options&) noexcept;
+                                            const RunOptions&) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint16_t>,
-                                            const Options&) noexcept;
+                                            const RunOptions&) noexcept;
 
 } // namespace simdbezier

@@ -1,5 +1,5 @@
-// See mesh_primitives.hpp.
-#include <simdbezier/mesh_primitives.hpp>
+// See mesh_layout.hpp.
+#include <simdbezier/mesh_layout.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -73,7 +73,7 @@ Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, con
       detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), range,
                                   triangles.data(), options.threads, streaming);
   if (written) {
-    detail::report(isa, options);
+    detail::note_executed(isa);
   }
   return written;
 }

@@ -13,13 +13,13 @@ namespace {
 
 /// Certifies all patches of one view.
 template <typename S>
-RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
-                   Isa isa, int threads) {
+Report certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
+               Isa isa, int threads) {
   if (const Status status = check_in_space(nets); !status) {
     return {status};
   }
-  if (const NetReport checked = find_fault(nets, threads); !checked) {
-    return {checked.status, checked.patch};
+  if (const Report checked = find_fault(nets, threads); !checked) {
+    return {checked.status, checked.item};
   }
   const auto all_open = [](std::size_t) { return kAllOpen; };
   const auto visit = [&](const PatchGroup& group) {
@@ -33,16 +33,16 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
 } // namespace detail
 
 template <typename S>
-RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu, std::uint32_t nv,
-                         std::span<const double> errors, std::span<double> deviation,
-                         const Options& options) noexcept try {
+Report certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t cells_u,
+                     std::uint32_t cells_v, std::span<const double> errors,
+                     std::span<double> deviation, const RunOptions& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
   if (detail::is_missing(nets)) {
     return {Status::null_input};
   }
   const std::size_t patches = detail::patches_of(nets);
   const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
-  if (!is_rate(nu) || !is_rate(nv) || deviation.size() != patches ||
+  if (!is_rate(cells_u) || !is_rate(cells_v) || deviation.size() != patches ||
       !(errors.empty() || errors.size() == patches)) {
     return {Status::bad_rates};
   }
@@ -58,10 +58,10 @@ RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu,
   }
   std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
-    RateReport report =
-        detail::certify(view, {nu, nv}, deviation.subspan(first, view.count), isa, options.threads);
+    Report report = detail::certify(view, {cells_u, cells_v}, deviation.subspan(first, view.count),
+                                    isa, options.threads);
     if (!report) {
-      report.patch += first;
+      report.item += first;
       return report;
     }
     first += view.count;
@@ -71,12 +71,11 @@ RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu,
   return {Status::out_of_memory};
 }
 
-template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<float>>, std::uint32_t,
-                                                 std::uint32_t, std::span<const double>,
-                                                 std::span<double>, const Options&) noexcept;
-template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<double>>,
-                                                 std::uint32_t, std::uint32_t,
-                                                 std::span<const double>, std::span<double>,
-                                                 const Options&) noexcept;
+template SIMDBEZIER_API Report certify_grids(std::span<const ControlNets<float>>, std::uint32_t,
+                                             std::uint32_t, std::span<const double>,
+                                             std::span<double>, const RunOptions&) noexcept;
+template SIMDBEZIER_API Report certify_grids(std::span<const ControlNets<double>>, std::uint32_t,
+                                             std::uint32_t, std::span<const double>,
+                                             std::span<double>, const RunOptions&) noexcept;
 
 } // namespace simdbezier

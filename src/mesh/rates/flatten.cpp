@@ -231,14 +231,12 @@ Status check_lengths(std::size_t curves, const FlattenOptions& options, std::siz
 }
 
 template <typename T, typename S>
-Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Options& options,
+Status flatten_into(const ControlCurves<S>& curves, double tolerance, const RunOptions& options,
                     Polylines<T>& lines) {
   CurveSet<T> set;
-  PackOptions how;
-  how.threads = options.threads;
-  how.isa = options.isa;
-  if (const PackReport packed = pack(curves, set, how); !packed) {
-    lines.fault_curve = packed.patch;
+  if (const Report packed = pack(curves, set, {.threads = options.threads, .isa = options.isa});
+      !packed) {
+    lines.report = packed;
     return packed.status;
   }
   if (curves.components > 3) {
@@ -251,10 +249,9 @@ Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Opti
   FlattenOptions wanted;
   wanted.tolerance = tolerance;
   wanted.errors = errors;
-  wanted.threads = options.threads;
-  const FlattenReport report = choose_polylines(curves, wanted, points, deviation);
+  const Report report = choose_polylines(curves, wanted, points, deviation, options);
   if (!status || !report) {
-    lines.fault_curve = report.curve;
+    lines.report = report;
     return status ? report.status : status;
   }
   lines.first.push_back(0);
@@ -270,16 +267,16 @@ Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Opti
   out.position = Vectors<T>::xyz(lines.points);
   out.position.z = curves.components < 3 ? nullptr : out.position.z;
   out.position.y = curves.components < 2 ? nullptr : out.position.y;
-  return evaluate(set, CurveGrids{points}, out, options);
+  return evaluate(set, CurveGrids{points}, out, {.threads = options.threads, .isa = options.isa});
 }
 
 } // namespace
 } // namespace detail
 
 template <typename S>
-FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOptions& options,
-                               std::span<std::uint32_t> points,
-                               std::span<double> deviation) noexcept {
+Report choose_polylines(const ControlCurves<S>& curves, const FlattenOptions& options,
+                        std::span<std::uint32_t> points, std::span<double> deviation,
+                        const RunOptions& run) noexcept {
   if (const Status status = detail::check_curves(curves); !status) {
     return {status};
   }
@@ -300,7 +297,7 @@ FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOpti
       }
     }
   };
-  detail::divide_work(curves.count, 150, options.threads, body);
+  detail::divide_work(curves.count, 150, run.threads, body);
   if (const std::size_t curve = fault; curve < curves.count) {
     const detail::DefaultFpEnvironment environment;
     return {choose(curve), curve};
@@ -310,21 +307,20 @@ FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOpti
 
 template <typename T, typename S>
 Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
-                     const Options& options) noexcept {
+                     const RunOptions& options) noexcept {
   const detail::DefaultFpEnvironment environment;
-  return detail::attempt(&Polylines<T>::fault_curve, [&](Polylines<T>& lines) {
-    return detail::flatten_into(curves, tolerance, options, lines);
-  });
+  return detail::attempt<Polylines<T>>(
+      [&](Polylines<T>& lines) { return detail::flatten_into(curves, tolerance, options, lines); });
 }
 
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \
-  template SIMDBEZIER_API FlattenReport choose_polylines(                                          \
-      const ControlCurves<S>&, const FlattenOptions&, std::span<std::uint32_t>,                    \
-      std::span<double>) noexcept;                                                                 \
+  template SIMDBEZIER_API Report choose_polylines(const ControlCurves<S>&, const FlattenOptions&,  \
+                                                  std::span<std::uint32_t>, std::span<double>,     \
+                                                  const RunOptions&) noexcept;                     \
   template SIMDBEZIER_API Polylines<float> flatten(const ControlCurves<S>&, double,                \
-                                                   const Options&) noexcept;                       \
+                                                   const RunOptions&) noexcept;                    \
   template SIMDBEZIER_API Polylines<double> flatten(const ControlCurves<S>&, double,               \
-                                                    const Options&) noexcept;
+                                                    const RunOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

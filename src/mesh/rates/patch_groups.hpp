@@ -67,8 +67,8 @@ private:
 /// Calls visit(group) for patches of a view, some at a time, in parallel; the report names the
 /// first of them at fault. flags_of(patch): its RateFlags.
 template <typename S, typename FlagsOf, typename Visit>
-RateReport visit_groups(const ControlNets<S>& nets, const PatchList& patches,
-                        const FlagsOf& flags_of, Isa isa, int threads, const Visit& visit) {
+Report visit_groups(const ControlNets<S>& nets, const PatchList& patches, const FlagsOf& flags_of,
+                    Isa isa, int threads, const Visit& visit) {
   constexpr std::size_t kNanoseconds = 2000; // a patch
   std::vector<Status> found(patches.size(), Status::ok);
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {

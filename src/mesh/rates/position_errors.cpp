@@ -32,7 +32,7 @@ double norm_bound(std::span<const double> errors) noexcept {
 /// components: of a position.
 template <typename Set>
 Status find_errors(const Set& set, std::size_t components, std::span<double> out,
-                   const Options& options) noexcept {
+                   const RunOptions& options) noexcept {
   if (out.size() < set.size()) {
     return Status::output_too_small;
   }
@@ -62,20 +62,20 @@ Status find_errors(const Set& set, std::size_t components, std::span<double> out
 
 template <typename T>
 Status position_errors(const PatchSet<T>& set, std::span<double> out,
-                       const Options& options) noexcept {
+                       const RunOptions& options) noexcept {
   return detail::find_errors(set, 3, out, options);
 }
 template <typename T>
 Status position_errors(const CurveSet<T>& set, std::span<double> out,
-                       const Options& options) noexcept {
+                       const RunOptions& options) noexcept {
   return detail::find_errors(set, kMostComponents, out, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
   template SIMDBEZIER_API Status position_errors(const PatchSet<T>&, std::span<double>,            \
-                                                 const Options&) noexcept;                         \
+                                                 const RunOptions&) noexcept;                      \
   template SIMDBEZIER_API Status position_errors(const CurveSet<T>&, std::span<double>,            \
-                                                 const Options&) noexcept;
+                                                 const RunOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

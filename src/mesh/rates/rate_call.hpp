@@ -10,6 +10,7 @@
 
 #include <simdbezier/rates.hpp>
 
+#include "src/mesh/radians.hpp"
 #include "src/mesh/rates/patch_groups.hpp"
 #include "src/mesh/topology/snapping.hpp"
 #include "src/mesh/topology/topology_data.hpp"
@@ -32,10 +33,10 @@ inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>&
 template <typename S>
 class RateCall {
 public:
-  /// isa: one that is there, for options.isa.
+  /// run: with an instruction set that is there. Of both kinds of tolerances, `tolerances` count.
   RateCall(std::span<const ControlNets<S>> nets, const Topology& topology,
-           const RateOptions& options, Isa isa, const CertifiedRates& out)
-      : nets_(nets), topology_(*topology.data()), options_(options), isa_(isa),
+           const RateOptions& options, const RunOptions& run, const CertifiedRates& out)
+      : nets_(nets), topology_(*topology.data()), options_(options), run_(run),
         errors_(options.errors), out_(out),
         most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
     if (!topology_.displacement.empty()) { // of these nets, which may have moved since then
@@ -48,34 +49,34 @@ public:
     }
     deviations_ = out.deviation;
     if (deviations_.empty()) {
-      own_deviations_.resize(out.nu.size());
+      own_deviations_.resize(out.cells_u.size());
       deviations_ = own_deviations_;
     }
   }
 
   /// A tolerance is not to blame where snapping has taken more than half of it.
-  [[nodiscard]] RateReport with_snapping_blamed(const RateReport& report) const {
+  [[nodiscard]] Report with_snapping_blamed(const Report& report) const {
     const bool snapped = report.status == Status::bad_tolerance && !displacement_.empty() &&
-                         wanted(report.patch) > 0 &&
-                         displacement_[report.patch] > wanted(report.patch) / 2;
-    return snapped ? RateReport{Status::snap_too_large, report.patch} : report;
+                         wanted(report.item) > 0 &&
+                         displacement_[report.item] > wanted(report.item) / 2;
+    return snapped ? Report{Status::snap_too_large, report.item} : report;
   }
 
   /// The rates that are there now.
   [[nodiscard]] std::vector<CellCounts> rates() const {
-    std::vector<CellCounts> all(out_.nu.size());
+    std::vector<CellCounts> all(out_.cells_u.size());
     for (std::size_t patch = 0; patch < all.size(); ++patch) {
-      all[patch] = {out_.nu[patch], out_.nv[patch]};
+      all[patch] = {out_.cells_u[patch], out_.cells_v[patch]};
     }
     return all;
   }
 
   /// Rates of the frame before take the place of chosen ones that have few cells less, if they
   /// hold. Those with fewer cells hardly ever do.
-  RateReport keep(const std::vector<CellCounts>& before) {
+  Report keep(const std::vector<CellCounts>& before) {
     const auto is_open = [&](std::size_t patch, bool) {
       const CellCounts& old = before[patch];
-      const CellCounts now{out_.nu[patch], out_.nv[patch]};
+      const CellCounts now{out_.cells_u[patch], out_.cells_v[patch]};
       const bool covers = old.nu >= now.nu && old.nv >= now.nv;
       return old.nu <= most_ && old.nv <= most_ && (old.nu != now.nu || old.nv != now.nv) &&
              old.product() >= now.product() && old.product() <= options_.keep * now.product() &&
@@ -95,16 +96,16 @@ public:
   }
 
   /// Chooses rates, with their certificates.
-  RateReport choose() {
-    if (const RateReport checked = find_faults(); !checked) {
+  Report choose() {
+    if (const Report checked = find_faults(); !checked) {
       return checked;
     }
-    const RateReport ran = run_kernels(true);
+    const Report ran = run_kernels(true);
     if (!ran) {
       return ran;
     }
     const auto is_open = [&](std::size_t patch, bool kernel) {
-      return !kernel || measures() || has_corner(patch) || out_.nu[patch] == kUndecided;
+      return !kernel || measures() || has_corner(patch) || out_.cells_u[patch] == kUndecided;
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
       Lanes<double> t;
@@ -123,8 +124,8 @@ public:
         open.for_lanes([&](std::size_t lane, std::size_t) {
           cells[lane] =
               at_least(chosen[lane].cells, open.bound().lengths(lane), options_.longest_edge);
-          cells[lane] =
-              at_least(cells[lane], open.bound().normal_turns(lane), options_.normal_angle);
+          cells[lane] = at_least(cells[lane], open.bound().normal_turns(lane),
+                                 radians(options_.normal_degrees));
         });
         chosen = open.bound().raise(cells, t, most_);
       }
@@ -135,12 +136,13 @@ public:
   /// Certifies rates that have been raised since they were `certified`, and raises them further
   /// where that does not hold, since the bound does not fall with every step. The certificates of
   /// all other patches stay, so that none depends on patches elsewhere.
-  RateReport settle(const std::vector<CellCounts>& certified, bool& changed) {
+  Report settle(const std::vector<CellCounts>& certified, bool& changed) {
     const auto is_raised = [&](std::size_t patch, bool) {
-      return out_.nu[patch] != certified[patch].nu || out_.nv[patch] != certified[patch].nv;
+      return out_.cells_u[patch] != certified[patch].nu ||
+             out_.cells_v[patch] != certified[patch].nv;
     };
     std::atomic<bool> any = false;
-    const RateReport report = for_groups(is_raised, [&](const PatchGroup& open) {
+    const Report report = for_groups(is_raised, [&](const PatchGroup& open) {
       const Lanes<CellCounts> cells = rates(open);
       const Lanes<CertifiedCells> raised = open.bound().raise(cells, tolerances(open), most_);
       open.for_lanes([&](std::size_t lane, std::size_t) {
@@ -154,17 +156,17 @@ public:
 
   /// Certifies the caller's rates, for nets that have not been checked yet, as closely as pays: by
   /// the kernel, and by GroupBound where that one is coarse.
-  RateReport certify_given() {
-    for (std::size_t patch = 0; patch < out_.nu.size(); ++patch) {
+  Report certify_given() {
+    for (std::size_t patch = 0; patch < out_.cells_u.size(); ++patch) {
       const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; };
-      if (!is_rate(out_.nu[patch]) || !is_rate(out_.nv[patch])) {
+      if (!is_rate(out_.cells_u[patch]) || !is_rate(out_.cells_v[patch])) {
         return {Status::bad_rates, patch};
       }
     }
-    if (const RateReport checked = find_faults(); !checked) {
+    if (const Report checked = find_faults(); !checked) {
       return checked;
     }
-    if (const RateReport ran = run_kernels(false); !ran) {
+    if (const Report ran = run_kernels(false); !ran) {
       return ran;
     }
     const auto is_open = [&](std::size_t patch, bool kernel) {
@@ -198,7 +200,7 @@ private:
   }
   /// Whether more is asked for than a distance.
   [[nodiscard]] bool measures() const {
-    return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_angle);
+    return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_degrees);
   }
   [[nodiscard]] double error(std::size_t patch) const {
     return errors_.empty() ? 0 : errors_[patch];
@@ -220,13 +222,13 @@ private:
     Lanes<CellCounts> cells;
     cells.fill({1, 1});
     open.for_lanes([&](std::size_t lane, std::size_t patch) {
-      cells[lane] = {out_.nu[patch], out_.nv[patch]};
+      cells[lane] = {out_.cells_u[patch], out_.cells_v[patch]};
     });
     return cells;
   }
   void put(std::size_t patch, const CertifiedCells& certified) {
-    out_.nu[patch] = certified.cells.nu;
-    out_.nv[patch] = certified.cells.nv;
+    out_.cells_u[patch] = certified.cells.nu;
+    out_.cells_v[patch] = certified.cells.nv;
     out_.diagonals[patch] = certified.diagonals;
     deviations_[patch] = certified.bound + error(patch);
   }
@@ -240,12 +242,12 @@ private:
     });
   }
 
-  RateReport find_faults() const {
+  Report find_faults() const {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : nets_) {
-      const NetReport checked = find_fault(nets, options_.threads);
+      const Report checked = find_fault(nets, run_.threads);
       if (!checked) {
-        return {checked.status, first + checked.patch};
+        return {checked.status, first + checked.item};
       }
       first += nets.count;
     }
@@ -253,11 +255,8 @@ private:
   }
 
   /// Chooses rates, or certifies those that are there, however few their cells.
-  RateReport run_kernels(bool choose) {
+  Report run_kernels(bool choose) {
     std::size_t first = 0;
-    Options run;
-    run.threads = options_.threads;
-    run.isa = isa_;
     for (const ControlNets<S>& nets : nets_) {
       if (suits_kernel(nets) && nets.count > 0) {
         RateTask<S> task{};
@@ -268,12 +267,12 @@ private:
         task.tolerances = options_.tolerances.empty() ? nullptr : &options_.tolerances[first];
         task.errors = errors_.empty() ? nullptr : &errors_[first];
         task.most = most_;
-        task.nu = &out_.nu[first];
-        task.nv = &out_.nv[first];
+        task.nu = &out_.cells_u[first];
+        task.nv = &out_.cells_v[first];
         task.diagonals = &out_.diagonals[first];
         task.deviations = &deviations_[first];
         const Status status =
-            run_net_kernel(&NetTable<S>::rates, task, nets.count, kRateValues, run);
+            run_net_kernel(&NetTable<S>::rates, task, nets.count, kRateValues, run_);
         if (status != Status::ok) {
           return {status};
         }
@@ -286,7 +285,7 @@ private:
   /// Calls visit(group) for all patches with is_open(patch, whether a kernel has seen it), in
   /// parallel; the report names the lowest one at fault.
   template <typename IsOpen, typename Visit>
-  RateReport for_groups(const IsOpen& is_open, const Visit& visit) {
+  Report for_groups(const IsOpen& is_open, const Visit& visit) {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : nets_) {
       std::vector<std::uint32_t> open;
@@ -295,11 +294,11 @@ private:
           open.push_back(static_cast<std::uint32_t>(patch));
         }
       }
-      const RateReport report = visit_groups(
-          nets, PatchList(open), [&](std::size_t patch) { return flags_of(first + patch); }, isa_,
-          options_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
+      const Report report = visit_groups(
+          nets, PatchList(open), [&](std::size_t patch) { return flags_of(first + patch); },
+          run_.isa, run_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
       if (!report) {
-        return {report.status, first + report.patch};
+        return {report.status, first + report.item};
       }
       first += nets.count;
     }
@@ -309,7 +308,7 @@ private:
   std::span<const ControlNets<S>> nets_;
   const TopologyData& topology_;
   const RateOptions& options_;
-  Isa isa_;
+  RunOptions run_;
   std::vector<double> displacement_; ///< by snapping; may be empty
   std::span<const double> errors_;   ///< of vertices, by rounding and by snapping
   std::vector<double> own_errors_;

@@ -2,6 +2,7 @@
 #include <simdbezier/rates.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace detail {
 namespace {
 
 template <typename S>
-RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
-                 std::span<const double> errors, const CertifiedRates& out, int threads) {
+Report check(std::span<const ControlNets<S>> nets, const Topology& topology,
+             std::span<const double> errors, const CertifiedRates& out, int threads) {
   if (is_missing(nets)) {
     return {Status::null_input};
   }
@@ -28,7 +29,7 @@ RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
   }
   const std::size_t joined = topology.counts().patches;
   const auto fits = [&](std::size_t size) { return size == patches; };
-  if (joined != patches || !fits(out.nu.size()) || !fits(out.nv.size()) ||
+  if (joined != patches || !fits(out.cells_u.size()) || !fits(out.cells_v.size()) ||
       !fits(out.diagonals.size()) || !(out.deviation.empty() || fits(out.deviation.size())) ||
       !(errors.empty() || fits(errors.size()))) {
     return {Status::bad_rates};
@@ -39,19 +40,32 @@ RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
     }
   }
   const std::size_t misfit = patches == 0 ? 0 : first_misfit(*topology.data(), nets, threads);
-  return misfit < patches ? RateReport{Status::bad_topology, misfit} : RateReport{};
+  return misfit < patches ? Report{Status::bad_topology, misfit} : Report{};
+}
+
+/// Each patch's own tolerance, or the common one if it is smaller; empty if only one kind is given.
+std::vector<double> smaller_tolerances(const RateOptions& options) {
+  if (options.tolerance == kUnlimited) {
+    return {};
+  }
+  std::vector<double> smaller(options.tolerances.begin(), options.tolerances.end());
+  for (double& tolerance : smaller) {
+    const bool is_smaller = tolerance <= options.tolerance || std::isnan(tolerance);
+    tolerance = is_smaller ? tolerance : options.tolerance; // nan stays, of both
+  }
+  return smaller;
 }
 
 } // namespace
 } // namespace detail
 
 template <typename S>
-RateReport certify_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
-                         std::span<const double> errors, const CertifiedRates& rates,
-                         const Options& options) noexcept try {
+Report certify_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
+                     std::span<const double> errors, const CertifiedRates& rates,
+                     const RunOptions& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const RateReport checked = detail::check(nets, topology, errors, rates, options.threads);
-  if (!checked || rates.nu.empty()) {
+  const Report checked = detail::check(nets, topology, errors, rates, options.threads);
+  if (!checked || rates.cells_u.empty()) {
     return checked;
   }
   Isa isa = Isa::automatic;
@@ -60,35 +74,37 @@ RateReport certify_rates(std::span<const ControlNets<S>> nets, const Topology& t
   }
   RateOptions how;
   how.errors = errors;
-  how.tolerance = kUnlimited; // whatever the certificate is, it is what was asked for
-  how.threads = options.threads;
-  return detail::RateCall<S>(nets, topology, how, isa, rates).certify_given();
+  return detail::RateCall<S>(nets, topology, how, {options.threads, isa}, rates).certify_given();
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }
 
 template <typename S>
-RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
-                        const RateOptions& options, const CertifiedRates& out) noexcept try {
+Report choose_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
+                    const RateOptions& options, const CertifiedRates& out,
+                    const RunOptions& run) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const RateReport checked = detail::check(nets, topology, options.errors, out, options.threads);
-  if (!checked || out.nu.empty()) {
+  const Report checked = detail::check(nets, topology, options.errors, out, run.threads);
+  if (!checked || out.cells_u.empty()) {
     return checked;
   }
-  if (!options.tolerances.empty() && options.tolerances.size() != out.nu.size()) {
+  if (!options.tolerances.empty() && options.tolerances.size() != out.cells_u.size()) {
     return {Status::bad_rates};
   }
-  if (!(options.longest_edge > 0) || !(options.normal_angle > 0)) {
+  if (!(options.longest_edge > 0) || !(options.normal_degrees > 0)) {
     return {Status::bad_tolerance};
   }
   Isa isa = Isa::automatic;
-  if (const Status runs = resolve_isa(options.isa, isa); !runs) {
+  if (const Status runs = resolve_isa(run.isa, isa); !runs) {
     return {runs};
   }
-  detail::RateCall<S> call(nets, topology, options, isa, out);
+  const std::vector<double> smaller = detail::smaller_tolerances(options);
+  RateOptions how = options;
+  how.tolerances = smaller.empty() ? how.tolerances : smaller;
+  detail::RateCall<S> call(nets, topology, how, {run.threads, isa}, out);
   const std::vector<detail::CellCounts> before =
       options.keep >= 1 ? call.rates() : std::vector<detail::CellCounts>();
-  RateReport report = call.choose();
+  Report report = call.choose();
   if (report && !before.empty()) {
     report = call.keep(before);
   }
@@ -96,14 +112,14 @@ RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& to
   for (bool changed = true; report && changed;) {
     const std::vector<detail::CellCounts> certified = call.rates();
     std::size_t raised = 0;
-    report.status = separate_vertices(topology, out.nu, out.nv, raised);
+    report.status = separate_vertices(topology, out.cells_u, out.cells_v, raised);
     changed = false;
     if (report && raised > 0) {
       report = call.settle(certified, changed);
     }
   }
-  for (std::size_t patch = 0; report && patch < out.nu.size(); ++patch) {
-    if (std::max(out.nu[patch], out.nv[patch]) > options.most_segments) {
+  for (std::size_t patch = 0; report && patch < out.cells_u.size(); ++patch) {
+    if (std::max(out.cells_u[patch], out.cells_v[patch]) > options.most_segments) {
       report = {Status::bad_tolerance, patch};
     }
   }
@@ -112,17 +128,17 @@ RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& to
   return {Status::out_of_memory};
 }
 
-template SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<float>>,
-                                                const Topology&, const RateOptions&,
-                                                const CertifiedRates&) noexcept;
-template SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<double>>,
-                                                const Topology&, const RateOptions&,
-                                                const CertifiedRates&) noexcept;
-template SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<float>>,
-                                                 const Topology&, std::span<const double>,
-                                                 const CertifiedRates&, const Options&) noexcept;
-template SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<double>>,
-                                                 const Topology&, std::span<const double>,
-                                                 const CertifiedRates&, const Options&) noexcept;
+template SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<float>>, const Topology&,
+                                            const RateOptions&, const CertifiedRates&,
+                                            const RunOptions&) noexcept;
+template SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<double>>, const Topology&,
+                                            const RateOptions&, const CertifiedRates&,
+                                            const RunOptions&) noexcept;
+template SIMDBEZIER_API Report certify_rates(std::span<const ControlNets<float>>, const Topology&,
+                                             std::span<const double>, const CertifiedRates&,
+                                             const RunOptions&) noexcept;
+template SIMDBEZIER_API Report certify_rates(std::span<const ControlNets<double>>, const Topology&,
+                                             std::span<const double>, const CertifiedRates&,
+                                             const RunOptions&) noexcept;
 
 } // namespace simdbezier

@@ -1,5 +1,5 @@
-// See split_edges.hpp.
-#include <simdbezier/split_edges.hpp>
+// See topology.hpp.
+#include <simdbezier/topology.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <simdbezier/nets.hpp>
-#include <simdbezier/topology.hpp>
 
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/split/along_finder.hpp"
@@ -147,10 +146,10 @@ Status cut_patch(const ControlNets<S>& one, const PatchPiece& from, const std::v
     const std::size_t j = k / (u.size() - 1);
     const auto out = MutableNets<S>::packed(values->data() + k * size, 1, one.degree_u,
                                             one.degree_v, 3, one.weights);
-    const NetReport cut = segment<S>(one,
-                                     {static_cast<S>(u[i]), static_cast<S>(u[i + 1]),
-                                      static_cast<S>(v[j]), static_cast<S>(v[j + 1])},
-                                     out, {.threads = 1});
+    const Report cut = segment<S>(one,
+                                  {static_cast<S>(u[i]), static_cast<S>(u[i + 1]),
+                                   static_cast<S>(v[j]), static_cast<S>(v[j + 1])},
+                                  out, {.threads = 1});
     if (!cut) {
       return cut.status;
     }
@@ -198,13 +197,12 @@ Status cut_all(const Cuts<S>& cuts, SplitNets<S>& split) {
 
 /// Finds where to cut, and does. `again`: whether anything was cut.
 template <typename S>
-Status split_once(const SplitOptions& options, std::size_t most, SplitNets<S>& split, bool& again) {
+Status split_once(const RunOptions& run, std::size_t most, SplitNets<S>& split, bool& again) {
   const std::span<const ControlNets<S>> nets = split.nets;
   TopologyOptions how;
   how.snap = split.snap;
-  how.threads = options.threads;
   Topology topology;
-  if (const Status status = find_topology(nets, topology, how); !status) {
+  if (const Status status = find_topology(nets, topology, how, run); !status) {
     return status;
   }
   const NetCorners<S> corners(nets);
@@ -229,13 +227,12 @@ Status split_once(const SplitOptions& options, std::size_t most, SplitNets<S>& s
 
 template <typename S>
 Status split_edges(std::span<const ControlNets<S>> nets, SplitNets<S>& split,
-                   const SplitOptions& options) noexcept try {
+                   const SplitOptions& options, const RunOptions& run) noexcept try {
   const detail::DefaultFpEnvironment environment;
   Topology topology; // which checks all arguments
   TopologyOptions how;
   how.snap = options.snap;
-  how.threads = options.threads;
-  if (const Status status = find_topology(nets, topology, how); !status) {
+  if (const Status status = find_topology(nets, topology, how, run); !status) {
     return status;
   }
   SplitNets<S> found;
@@ -258,7 +255,7 @@ Status split_edges(std::span<const ControlNets<S>> nets, SplitNets<S>& split,
   const std::size_t most =
       options.most_pieces != 0 ? options.most_pieces : std::max(8 * found.pieces.size(), kMost);
   for (bool again = topology.counts().open_edges > 0; again;) {
-    if (const Status status = detail::split_once(options, most, found, again); !status) {
+    if (const Status status = detail::split_once(run, most, found, again); !status) {
       return status;
     }
   }
@@ -269,8 +266,8 @@ Status split_edges(std::span<const ControlNets<S>> nets, SplitNets<S>& split,
 }
 
 template SIMDBEZIER_API Status split_edges(std::span<const ControlNets<float>>, SplitNets<float>&,
-                                           const SplitOptions&) noexcept;
+                                           const SplitOptions&, const RunOptions&) noexcept;
 template SIMDBEZIER_API Status split_edges(std::span<const ControlNets<double>>, SplitNets<double>&,
-                                           const SplitOptions&) noexcept;
+                                           const SplitOptions&, const RunOptions&) noexcept;
 
 } // namespace simdbezier

@@ -101,7 +101,7 @@ template std::size_t first_misfit(const TopologyData&, std::span<const ControlNe
 
 template <typename S>
 bool fits(const Topology& topology, std::span<const ControlNets<S>> nets,
-          const Options& options) noexcept try {
+          const RunOptions& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
   if (!detail::check_model(nets)) {
     return false;
@@ -114,8 +114,8 @@ bool fits(const Topology& topology, std::span<const ControlNets<S>> nets,
 }
 
 template SIMDBEZIER_API bool fits(const Topology&, std::span<const ControlNets<float>>,
-                                  const Options&) noexcept;
+                                  const RunOptions&) noexcept;
 template SIMDBEZIER_API bool fits(const Topology&, std::span<const ControlNets<double>>,
-                                  const Options&) noexcept;
+                                  const RunOptions&) noexcept;
 
 } // namespace simdbezier

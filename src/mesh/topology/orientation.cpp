@@ -125,8 +125,8 @@ private:
 
 } // namespace
 
-Status orient(const TopologyOptions& options, TopologyData& topology) {
-  topology.counts.turned_edges = count_turned_edges(topology, options.threads);
+Status orient(const TopologyOptions& options, int threads, TopologyData& topology) {
+  topology.counts.turned_edges = count_turned_edges(topology, threads);
   std::vector<bool> turned(topology.patches());
   if (topology.counts.turned_edges > 0) {
     topology.counts.orientable = turn_all(topology, turned);

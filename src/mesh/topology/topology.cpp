@@ -49,18 +49,18 @@ bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology)
 }
 
 template <typename S>
-Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& options,
+Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& options, int threads,
              TopologyData& topology) {
   topology.flags.assign(patches_of(nets), 0);
   topology.counts.patches = topology.patches();
   const NetCorners<S> corners(nets);
   {
-    auto rings = find_rings<S, std::uint32_t>(nets, options.threads);
+    auto rings = find_rings<S, std::uint32_t>(nets, threads);
     collapse_short_sides(corners, std::max(options.point_size, options.snap), rings);
     if (options.snap > 0) {
       topology.counts.snapped_sides = snap_sides(corners, options.snap, rings);
     }
-    const Shares shares(patches_of(nets), 15, options.threads);
+    const Shares shares(patches_of(nets), 15, threads);
     EdgeNumbers(rings, shares, topology).run();
     CornerJoiner(shares, topology).run();
   }
@@ -68,13 +68,13 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
     topology.joined_within = std::max(options.snap, options.point_size);
     topology.displacement = find_displacements(corners, topology);
   }
-  const std::vector<std::uint32_t> candidates = entanglement_candidates(topology, options.threads);
+  const std::vector<std::uint32_t> candidates = entanglement_candidates(topology, threads);
   mark_repeated(corners, candidates, topology);
   mark_entangled(candidates, topology);
-  const FreshVector<std::uint8_t> doubts = corners.doubts(options.threads);
+  const FreshVector<std::uint8_t> doubts = corners.doubts(threads);
   mark_corners(corners, doubts, candidates, topology);
   mark_loops(corners, doubts, topology);
-  const Status oriented = orient(options, topology);
+  const Status oriented = orient(options, threads, topology);
   if (oriented == Status::ok && topology.counts.turned_edges > 0) {
     mark_apart(topology);
   }
@@ -94,14 +94,14 @@ Status check(std::span<const ControlNets<S>> nets, const TopologyOptions& option
 
 template <typename S>
 Status find_topology(std::span<const ControlNets<S>> nets, Topology& topology,
-                     const TopologyOptions& options) noexcept try {
+                     const TopologyOptions& options, const RunOptions& run) noexcept try {
   const detail::DefaultFpEnvironment environment;
   const Status status = detail::check(nets, options);
   if (status != Status::ok) {
     return status;
   }
   auto data = std::make_shared<detail::TopologyData>();
-  const Status built = detail::build(nets, options, *data);
+  const Status built = detail::build(nets, options, run.threads, *data);
   if (built == Status::ok) {
     topology = Topology(std::move(data));
   }
@@ -111,9 +111,9 @@ Status find_topology(std::span<const ControlNets<S>> nets, Topology& topology,
 }
 
 template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<float>>, Topology&,
-                                             const TopologyOptions&) noexcept;
+                                             const TopologyOptions&, const RunOptions&) noexcept;
 template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<double>>, Topology&,
-                                             const TopologyOptions&) noexcept;
+                                             const TopologyOptions&, const RunOptions&) noexcept;
 
 TopologyCounts Topology::counts() const noexcept {
   return data_ == nullptr ? TopologyCounts{} : data_->counts;

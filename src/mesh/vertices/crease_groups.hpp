@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/mesh/net_points.hpp"
+#include "src/mesh/radians.hpp"
 #include "src/mesh/vertices/boundary_samples.hpp"
 
 namespace simdbezier::detail {
@@ -77,8 +78,8 @@ class CreaseFinder {
 public:
   CreaseFinder(const MeshData& mesh, double angle, const Planes<T>& normals,
                CreaseGroups& groups) noexcept
-      : topology_(*mesh.topology.data()), always_(angle >= std::numbers::pi),
-        cosine_(std::cos(angle)), sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
+      : topology_(*mesh.topology.data()), always_(angle >= radians(180)), cosine_(std::cos(angle)),
+        sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
 
   /// Gives groups to the patches at a corner, or at each point of an edge. sample_of_corner:
   /// scratch for one value a corner that is joined with others.

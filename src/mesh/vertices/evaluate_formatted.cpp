@@ -1,7 +1,7 @@
-// See vertex_formats.hpp: vertices come to planes in a cache, and from there to their formats.
+// See evaluate_mesh.hpp: vertices come to planes in a cache, and from there to their formats.
 #include <algorithm>
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 #include "src/calls/call.hpp"
 #include "src/mesh/net_points.hpp"

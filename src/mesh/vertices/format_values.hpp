@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 namespace simdbezier::detail {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <simdbezier/vertex_formats.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
 
 #include "src/output/memory_range.hpp"
 

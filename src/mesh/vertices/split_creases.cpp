@@ -5,6 +5,7 @@
 
 #include "src/calls/call.hpp"
 #include "src/mesh/layout/layout_builder.hpp"
+#include "src/mesh/radians.hpp"
 #include "src/mesh/vertices/crease_groups.hpp"
 #include "src/runtime/fp_environment.hpp"
 
@@ -132,10 +133,10 @@ Status split_parameters(const MeshLayout& layout, MeshLayout& split) noexcept tr
 }
 
 template <typename T>
-Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double angle,
+Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double degrees,
                      MeshLayout& split, const Options& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  if (!(angle >= 0)) {
+  if (!(degrees >= 0)) {
     return Status::bad_tolerance;
   }
   if (set.size() != (layout.data() == nullptr ? 0 : layout.data()->patches())) {
@@ -152,7 +153,7 @@ Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double an
   if (!request.components.space()) {
     return Status::bad_components;
   }
-  return detail::split_vertices(set, layout, angle, request, options, split);
+  return detail::split_vertices(set, layout, detail::radians(degrees), request, options, split);
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;
 }

@@ -169,7 +169,7 @@ private:
     }
     hash.add(curvature);
     const Polylines<T> lines = flatten<T>(rows, 0x1p-4, options_);
-    hash.add(lines.status);
+    hash.add(lines.report.status);
     hash.add(lines.points);
     hash.print(type_, model_.name, "curves");
   }
@@ -214,7 +214,7 @@ private:
   void meshes() {
     const Mesh<T> mesh = tessellate<T>(nets_, {.relative_tolerance = 0x1p-5});
     Hash hash;
-    hash.add(mesh.status);
+    hash.add(mesh.report.status);
     hash.add(mesh.positions);
     hash.add(mesh.normals);
     hash.add(mesh.triangles);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"

@@ -28,12 +28,10 @@ std::vector<T> direct_positions(Isa isa) {
   std::vector<T> values(file.count * kSide * kSide * 3);
   Outputs<T> out;
   out.position = Vectors<T>::xyz(values.data());
-  Isa executed = Isa::automatic;
   Options options;
   options.isa = isa;
-  options.executed = &executed;
   EXPECT_EQ(evaluate(set, Grid<T>::uniform(kSide, kSide), out, options), Status::ok);
-  EXPECT_EQ(executed, isa);
+  EXPECT_EQ(take_executed_isa(), isa);
   return values;
 }
 

@@ -1,4 +1,4 @@
-// Parameters far outside of the patch: results are numbers up to the magnitudes that samples.hpp
+// Parameters far outside of the patch: results are numbers up to the magnitudes that patch_set.hpp
 // names, and beyond them normals are still unit vectors or zero.
 #include <cmath>
 #include <initializer_list>

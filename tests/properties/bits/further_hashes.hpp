@@ -112,7 +112,7 @@ public:
   NetResults& operator=(const NetResults&) = delete;
 
   [[nodiscard]] const MutableNets<T>& nets() const { return nets_; }
-  void add_to(Fnv1a& hash, const NetReport& report) const {
+  void add_to(Fnv1a& hash, const Report& report) const {
     hash.add(static_cast<int>(report.status.code()));
     hash.add_all(std::span<const T>(values_));
   }
@@ -132,7 +132,7 @@ void add_operations(Fnv1a& hash, const ControlNets<T>& nets, const Options& opti
   NetResults<T> c(nets, same);
   NetResults<T> d(nets, same);
   const UnitParameter<T> third = UnitParameter<T>::fraction(1, 3);
-  const NetReport halves =
+  const Report halves =
       split(nets, third, T(0.75), {a.nets(), b.nets(), c.nets(), d.nets()}, options);
   for (const NetResults<T>* const part : {&a, &b, &c, &d}) {
     part->add_to(hash, halves);
@@ -167,7 +167,7 @@ template <typename T>
     add_operations(hash, control, options);
     std::vector<T> low(3 * nets.size());
     std::vector<T> high(3 * nets.size());
-    const auto add_boxes = [&](const NetReport& report) {
+    const auto add_boxes = [&](const Report& report) {
       hash.add(static_cast<int>(report.status.code()));
       hash.add_all(std::span<const T>(low));
       hash.add_all(std::span<const T>(high));

@@ -137,7 +137,7 @@ TEST(Advice, LeavesErrnoAlone) {
   PatchSet<float> set;
   g_advice = 0;
   errno = EDOM;
-  const PackReport report = pack(ControlNets<float>{points.data(), kMany}, set, {.threads = 1});
+  const Report report = pack(ControlNets<float>{points.data(), kMany}, set, {.threads = 1});
   const int after = errno;
   EXPECT_TRUE(report);
   EXPECT_EQ(after, EDOM);

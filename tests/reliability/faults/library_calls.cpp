@@ -202,10 +202,10 @@ std::vector<Call> nets() {
        [&](Results&, const Options& o) {
          const SplineSurface<float> surface = torus(in);
          MeshOptions options;
-         options.tolerance = 0.1;
+         options.rates.tolerance = 0.1;
          options.threads = o.threads;
          return tessellate<float>(std::span<const SplineSurface<float>>(&surface, 1), options)
-             .status;
+             .report.status;
        }},
       {"tessellate, of an edge and its halves", true,
        [&](Results&, const Options& o) {
@@ -217,19 +217,19 @@ std::vector<Call> nets() {
          options.split_edges = true;
          options.threads = o.threads;
          return tessellate<float>(ControlNets<float>::packed(&kSquares[0], 3, 1, 1), options)
-             .status;
+             .report.status;
        }},
       {"tessellate, of weights that are far apart", true,
        [&](Results&, const Options& o) {
          static constexpr float kQuarter[] = {1, 0, 0, 1, 1, 1, 0, 1000, 0, 1, 0, 1,
                                               1, 0, 1, 1, 1, 1, 1, 1000, 0, 1, 1, 1};
          MeshOptions options;
-         options.tolerance = 1e-3;
+         options.rates.tolerance = 1e-3;
          options.threads = o.threads;
          return tessellate<float>(
                     ControlNets<float>::packed(&kQuarter[0], 1, 2, 1, 3, Weights::cartesian),
                     options)
-             .status;
+             .report.status;
        }},
       {"choose_polylines, of weights that are far apart", true,
        [&](Results&, const Options& o) {
@@ -238,10 +238,9 @@ std::vector<Call> nets() {
          std::uint32_t points[2];
          FlattenOptions options;
          options.tolerance = 1e-3;
-         options.threads = o.threads;
          return choose_polylines(
                     ControlCurves<float>::packed(&kQuarters[0], 2, 2, 3, Weights::cartesian),
-                    options, points, {})
+                    options, points, {}, o)
              .status;
        }},
       {"evaluate_grid, of a spline", true,

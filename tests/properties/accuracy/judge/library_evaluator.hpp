@@ -43,9 +43,10 @@ public:
                 std::span<Result<T>> results) override {
     const PatchSet<T> set = packed<T>(std::span(&net, 1), packing_);
     Planes<T> planes(at.size(), {.second = true, .curvature = true});
-    const Options options{.threads = 1, .isa = isa_, .executed = &executed_};
+    const Options options{.threads = 1, .isa = isa_};
     const Status status =
         grid > 0 ? run_grid(set, grid, planes, options) : run_scattered(set, at, planes, options);
+    executed_ = take_executed_isa();
     if (status != Status::ok || executed_ != isa_) {
       throw std::runtime_error(name() + ": " + std::string(to_string(status)) + ", ran on " +
                                std::string(to_string(executed_)));

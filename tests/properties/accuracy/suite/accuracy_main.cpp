@@ -50,7 +50,8 @@ struct Settings {
 };
 
 /// Plug-ins that run; what is wrong with the others is a failure like any.
-[[nodiscard]] std::vector<PluginProcess> start_plugins(const Settings& settings, Report& report) {
+[[nodiscard]] std::vector<PluginProcess> start_plugins(const Settings& settings,
+                                                       AccuracyReport& report) {
   std::vector<PluginProcess> plugins;
   for (const std::string& file : settings.evaluators) {
     try {
@@ -114,7 +115,7 @@ template <typename T>
 /// Measures one evaluator on one family. One that died is a failure, and measured no more.
 template <typename T>
 void run_one(std::unique_ptr<Evaluator<T>>& evaluator, const Family<T>& family, const char* type,
-             const Reference& reference, Report& report) {
+             const Reference& reference, AccuracyReport& report) {
   const FamilyInfo info = describe(family, evaluator->variant());
   try {
     report.add(info, type, evaluator->result_class(), evaluator->name(),
@@ -128,7 +129,7 @@ void run_one(std::unique_ptr<Evaluator<T>>& evaluator, const Family<T>& family, 
 
 template <typename T>
 void run(const char* type, const Settings& settings, const std::vector<PluginProcess>& plugins,
-         Report& report) {
+         AccuracyReport& report) {
   Evaluators<T> evaluators = all_evaluators<T>();
   for (const PluginProcess& plugin : plugins) {
     add_plugin(plugin, evaluators);
@@ -160,7 +161,7 @@ void run(const char* type, const Settings& settings, const std::vector<PluginPro
 }
 
 [[nodiscard]] int run_suite(const Settings& settings) {
-  Report report;
+  AccuracyReport report;
   Thresholds thresholds;
   const bool compares = !settings.thresholds.empty() && !settings.write_thresholds;
   if (compares) {

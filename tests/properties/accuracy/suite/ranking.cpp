@@ -23,7 +23,7 @@ struct Standing {
 /// Families of one type and quantity that an evaluator has rows of.
 using Families = std::map<std::string, std::set<std::string>>;
 
-[[nodiscard]] Families families_of(const Report& report, const std::string& type,
+[[nodiscard]] Families families_of(const AccuracyReport& report, const std::string& type,
                                    Quantity quantity) {
   Families families;
   for (const Row& row : report.rows) {
@@ -35,7 +35,7 @@ using Families = std::map<std::string, std::set<std::string>>;
 }
 
 /// The families that all plug-ins have, as far as they have any.
-[[nodiscard]] std::set<std::string> compared(const Report& report, const std::string& type,
+[[nodiscard]] std::set<std::string> compared(const AccuracyReport& report, const std::string& type,
                                              Quantity quantity) {
   const Families all = families_of(report, type, quantity);
   std::set<std::string> common;
@@ -54,7 +54,7 @@ using Families = std::map<std::string, std::set<std::string>>;
   return common;
 }
 
-void print_ranking(const Report& report, const std::string& type, Quantity quantity) {
+void print_ranking(const AccuracyReport& report, const std::string& type, Quantity quantity) {
   const std::set<std::string> families = compared(report, type, quantity);
   const Families all = families_of(report, type, quantity);
   std::map<std::string, Standing> standings;
@@ -94,7 +94,7 @@ void print_ranking(const Report& report, const std::string& type, Quantity quant
 
 } // namespace
 
-void print_rankings(const Report& report) {
+void print_rankings(const AccuracyReport& report) {
   for (const char* const type : {"f32", "f64"}) {
     for (auto q = Quantity::position; q <= Quantity::normal;
          q = Quantity(static_cast<int>(q) + 1)) {

@@ -38,7 +38,7 @@ constexpr std::size_t kComparedErrors = 5000; // the least: families have 12 852
 }
 
 /// The best of the two forms of de Casteljau's algorithm that round like the given class.
-[[nodiscard]] std::optional<double> de_casteljau_rms(const Report& report, const Row& row) {
+[[nodiscard]] std::optional<double> de_casteljau_rms(const AccuracyReport& report, const Row& row) {
   const std::string suffix = row.result_class == ResultClass::nofma ? "_nofma" : "";
   std::optional<double> best;
   for (const Row& other : report.rows) {
@@ -66,8 +66,9 @@ std::string class_name(ResultClass result_class) {
   }
 }
 
-void Report::add(const FamilyInfo& family, const std::string& type, ResultClass result_class,
-                 const std::string& evaluator, const Measurement& measurement) {
+void AccuracyReport::add(const FamilyInfo& family, const std::string& type,
+                         ResultClass result_class, const std::string& evaluator,
+                         const Measurement& measurement) {
   for (std::size_t q = 0; q < kQuantities; ++q) {
     const auto quantity = static_cast<Quantity>(q);
     if (measurement.metrics[q].count == 0) { // not given, or not for such nets
@@ -93,7 +94,7 @@ void Report::add(const FamilyInfo& family, const std::string& type, ResultClass 
   expect_none(measurement.missed_limits, "zero normals where the surface has a limit");
 }
 
-void Report::judge_plugins(const Thresholds& own) {
+void AccuracyReport::judge_plugins(const Thresholds& own) {
   for (const Row& row : rows) {
     const bool judged = row.quantity <= Quantity::normal && !own.contains(row.threshold_class());
     if (row.result_class == ResultClass::plugin && judged && !(row.metric.max_ratio <= 1)) {
@@ -108,7 +109,7 @@ void Report::judge_plugins(const Thresholds& own) {
   }
 }
 
-void Report::judge_contracts() {
+void AccuracyReport::judge_contracts() {
   std::map<std::string, const Row*> first_of_class;
   for (const Row& row : rows) {
     if (!is_ours(row.result_class)) {
@@ -148,7 +149,7 @@ std::string Row::threshold_class() const {
          (result_class == ResultClass::plugin ? "/" + evaluator : std::string());
 }
 
-void Report::judge_thresholds(const Thresholds& thresholds) {
+void AccuracyReport::judge_thresholds(const Thresholds& thresholds) {
   for (const Row& row : rows) {
     const std::string name = row.threshold_class();
     const auto known_class = thresholds.find(name);

@@ -57,7 +57,7 @@ struct Threshold {
 using Thresholds = std::map<std::string, std::map<std::string, Threshold>>;
 
 /// What a run found: rows, and counts that must be zero.
-struct Report {
+struct AccuracyReport {
   std::vector<Row> rows;
   std::vector<std::string> failures; ///< one line each, naming the row
 
@@ -72,13 +72,13 @@ struct Report {
   void judge_thresholds(const Thresholds& thresholds);
 };
 
-void print_table(const Report& report);
+void print_table(const AccuracyReport& report);
 /// Plug-ins among all others, by RMS error.
-void print_rankings(const Report& report);
+void print_rankings(const AccuracyReport& report);
 /// Throw std::runtime_error naming the file where it cannot be read or written, and where its
 /// figures are those of a run of another size.
-void write_json(const Report& report, const std::string& path);
+void write_json(const AccuracyReport& report, const std::string& path);
 [[nodiscard]] Thresholds read_thresholds(const std::string& path, const RunSize& size);
-void write_thresholds(const Report& report, const std::string& path, const RunSize& size);
+void write_thresholds(const AccuracyReport& report, const std::string& path, const RunSize& size);
 
 } // namespace simdbezier::tests

@@ -96,7 +96,7 @@ void write_text(const std::string& text, const std::string& path) {
 
 } // namespace
 
-void print_table(const Report& report) {
+void print_table(const AccuracyReport& report) {
   std::printf(
       "max/RMS errors. P: u max|b|, Du to Dvv: u max|hodograph|, N: u, Nk: u kappa, L: degrees "
       "to the limit, Kg to Kp: error / bound\n%-28s %-24s",
@@ -125,7 +125,7 @@ void print_table(const Report& report) {
   }
 }
 
-void write_json(const Report& report, const std::string& path) {
+void write_json(const AccuracyReport& report, const std::string& path) {
   Json rows = Json::array();
   for (const Row& row : report.rows) {
     rows.push_back(row_json(row));
@@ -164,7 +164,7 @@ Thresholds read_thresholds(const std::string& path, const RunSize& size) {
   return thresholds;
 }
 
-void write_thresholds(const Report& report, const std::string& path, const RunSize& size) {
+void write_thresholds(const AccuracyReport& report, const std::string& path, const RunSize& size) {
   Thresholds found;
   for (const Row& row : report.rows) {
     // What is not finite gets no figures: it is a failure, and stays one.

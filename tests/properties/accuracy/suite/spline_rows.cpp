@@ -52,7 +52,7 @@ void judge(const ExactCase<T>& item, const CutSurface<T>& cut, std::size_t numbe
 
 template <typename T>
 void measure_splines(const char* type, std::size_t nets, const std::string& filter,
-                     Report& report) {
+                     AccuracyReport& report) {
   const std::regex wanted(filter);
   for (const KnotKind kind : kKnotKinds) {
     const FamilyInfo family{"spline_" + name_of(kind), 3, 3, 1};
@@ -68,10 +68,8 @@ void measure_splines(const char* type, std::size_t nets, const std::string& filt
       }
       Measurement measurement;
       for (std::size_t k = 0; k < cases.size(); ++k) {
-        Isa executed = Isa::automatic;
-        const CutSurface<T> cut(cases[k].model.view(),
-                                {.threads = 1, .isa = isa, .executed = &executed});
-        if (!cut.report || executed != isa) {
+        const CutSurface<T> cut(cases[k].model.view(), {.threads = 1, .isa = isa});
+        if (!cut.report || take_executed_isa() != isa) {
           report.failures.push_back(family.name + "/" + type + "/" + evaluator + ": spline " +
                                     std::to_string(k) + ": " +
                                     std::string(to_string(cut.report.status)));
@@ -85,7 +83,8 @@ void measure_splines(const char* type, std::size_t nets, const std::string& filt
   }
 }
 
-template void measure_splines<float>(const char*, std::size_t, const std::string&, Report&);
-template void measure_splines<double>(const char*, std::size_t, const std::string&, Report&);
+template void measure_splines<float>(const char*, std::size_t, const std::string&, AccuracyReport&);
+template void measure_splines<double>(const char*, std::size_t, const std::string&,
+                                      AccuracyReport&);
 
 } // namespace simdbezier::tests

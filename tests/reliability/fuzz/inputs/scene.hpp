@@ -15,7 +15,7 @@
 namespace simdbezier::fuzz {
 
 /// What pack() may return; sizes, pointers and strides are sound here.
-inline void require_packed(const PackReport& report, bool moderate) {
+inline void require_packed(const Report& report, bool moderate) {
   require_status(
       report.status,
       {Status::ok, Status::bad_weight, Status::non_finite_input, Status::coefficient_overflow},
@@ -76,7 +76,7 @@ private:
     for (const Nets<S>& one : nets) {
       views.push_back(one.view());
     }
-    const PackReport report = pack(std::span<const ControlNets<S>>(views), set_, options_);
+    const Report report = pack(std::span<const ControlNets<S>>(views), set_, options_);
     require_packed(report, moderate);
     packed_ = report.status == Status::ok;
     for (const Nets<S>& one : nets) {

@@ -56,12 +56,9 @@ private:
 
   Results<T> on_grid(const tests::CallOptions& options) {
     OutputMemory<T> memory(wanted_, samples_, bytes_);
-    Isa executed = Isa::automatic;
-    tests::CallOptions own = options;
-    own.executed = &executed;
-    require_status(evaluate(scene_.set(), grid_.view(), memory.out(), own), {Status::ok},
+    require_status(evaluate(scene_.set(), grid_.view(), memory.out(), options), {Status::ok},
                    "evaluate, grid");
-    require(samples_ == 0 || executed == options.isa, "another instruction set ran");
+    require(samples_ == 0 || take_executed_isa() == options.isa, "another instruction set ran");
     return memory.collect();
   }
 

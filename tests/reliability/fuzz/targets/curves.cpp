@@ -55,7 +55,7 @@ public:
   void run() {
     CurveSet<T> set;
     hostile(set);
-    const PackReport report = pack(view(), set, pack_options_);
+    const Report report = pack(view(), set, pack_options_);
     require_packed(report, curves_.moderate);
     if (!report) {
       return;
@@ -230,7 +230,7 @@ private:
     curves = as_curves(nets); // what was done to rows is lost
     const Verdict verdict = verdict_on(as_nets(curves), true);
     CurveSet<T> set = before;
-    const PackReport report = pack(curves, set, pack_options_);
+    const Report report = pack(curves, set, pack_options_);
     require(verdict != Verdict::refused || !report, "pack (curves) takes what makes no sense");
     require(verdict != Verdict::overflow || report.status == Status::size_overflow,
             "pack (curves) takes strides that overflow");

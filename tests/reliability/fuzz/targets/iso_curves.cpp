@@ -65,7 +65,7 @@ public:
 
   void run() {
     PatchSet<T> set;
-    const PackReport report = pack(nets_.view(), set, options_);
+    const Report report = pack(nets_.view(), set, options_);
     require_packed(report, nets_.moderate);
     const double parameter = fuzz::parameter<double>(bytes_, Parameters::unit);
     points(parameter);
@@ -123,8 +123,8 @@ private:
     }
     for (const bool of_u : {true, false}) {
       CurveSet<T> curves;
-      const PackReport report = of_u ? iso_u(nets_.view(), parameter, curves, options_)
-                                     : iso_v(nets_.view(), parameter, curves, options_);
+      const Report report = of_u ? iso_u(nets_.view(), parameter, curves, options_)
+                                 : iso_v(nets_.view(), parameter, curves, options_);
       require_packed(report, nets_.moderate);
       if (!report) {
         continue;

@@ -229,7 +229,7 @@ private:
                   status == Status::bad_stride,
               "a measure takes strides that overflow");
     }
-    const NetReport written = reverse_u(nets_.view(), as_output(nets), options);
+    const Report written = reverse_u(nets_.view(), as_output(nets), options);
     require(sound || !written, "an operation writes to nets that make no sense");
     block.check_surroundings();
   }

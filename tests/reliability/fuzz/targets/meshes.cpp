@@ -25,14 +25,16 @@ public:
     options_.split_edges = (choice & 1) != 0;
     options_.parameters = (choice & 2) != 0;
     options_.drop_repeated = (choice & 4) != 0;
-    options_.flip = (choice & 8) != 0;
-    options_.orient = (choice & 48) == 48;
+    options_.topology.flip = (choice & 8) != 0;
+    options_.topology.orient = (choice & 48) == 48;
     options_.local_origin = (choice & 64) != 0;
     options_.normals = (choice & 128) != 0; // exact ones of degenerate nets take long
     const std::uint8_t more = bytes.byte();
-    options_.snap = (more & 3) == 3 ? static_cast<double>(bytes.raw<float>()) : 0;
-    options_.point_size = (more & 12) == 12 ? std::ldexp(1.0, bytes.between(-30, 3)) : 0;
-    options_.crease_angle = (more & 48) == 48 ? bytes.between(0, 3) : kUnlimited;
+    options_.topology.snap = (more & 3) == 3 ? static_cast<double>(bytes.raw<float>()) : 0;
+    options_.topology.point_size = (more & 12) == 12 ? std::ldexp(1.0, bytes.between(-30, 3)) : 0;
+    const double crease = (more & 48) == 48 ? 60 * bytes.between(0, 3) : kUnlimited;
+    options_.share_vertices = crease > 0;
+    options_.crease_degrees = crease > 0 ? crease : kUnlimited;
     options_.short_indices = (more & 64) != 0;
     // Weights that are far apart would ask for many cells.
     if ((more & 128) != 0 && nets_.moderate && !nets_.rational()) {
@@ -54,16 +56,17 @@ public:
     const Mesh<T> mesh = tessellate<T, T>(views, options_);
     options_.threads = 2;
     const Mesh<T> same = tessellate<T, T>(views, options_);
-    require_status(mesh.status,
+    require_status(mesh.report.status,
                    {Status::ok, Status::bad_weight, Status::non_finite_input,
                     Status::coefficient_overflow, Status::bad_tolerance, Status::snap_too_large,
                     Status::not_orientable},
                    "tessellate");
-    require(plan.status == mesh.status && same.status == mesh.status, "statuses differ");
-    require(mesh.status == Status::ok || mesh.status == Status::not_orientable ||
-                options_.snap != 0 || options_.point_size != 0 || !nets_.moderate,
+    require(plan.report.status == mesh.report.status && same.report.status == mesh.report.status,
+            "statuses differ");
+    require(mesh.report.status == Status::ok || mesh.report.status == Status::not_orientable ||
+                options_.topology.snap != 0 || options_.topology.point_size != 0 || !nets_.moderate,
             "tessellate refuses moderate nets");
-    if (mesh.status != Status::ok) {
+    if (mesh.report.status != Status::ok) {
       return;
     }
     require_equal(flat(mesh.positions), flat(same.positions), "positions");

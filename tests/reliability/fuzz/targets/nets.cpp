@@ -52,7 +52,7 @@ public:
   void run() {
     const Piece whole{u0_, u1_, v0_, v1_};
     std::vector<Nets<T>> expected = results();
-    const NetReport report = apply_packed(nets_.view(), expected, whole);
+    const Report report = apply_packed(nets_.view(), expected, whole);
     require_documented(report);
     other_strides(expected, report, whole);
     if (report) {
@@ -70,7 +70,7 @@ private:
     return in(u0_) && in(u1_) && in(v0_) && in(v1_);
   }
 
-  void require_documented(const NetReport& report) const {
+  void require_documented(const Report& report) const {
     require_status(report.status,
                    {Status::ok, Status::bad_degree, Status::bad_weight, Status::non_finite_input},
                    "an operation on nets");
@@ -112,8 +112,8 @@ private:
     return std::vector<Nets<T>>(count, like);
   }
 
-  NetReport apply(const ControlNets<T>& nets, std::span<const MutableNets<T>> out,
-                  const Piece& piece, const Options& options) const {
+  Report apply(const ControlNets<T>& nets, std::span<const MutableNets<T>> out, const Piece& piece,
+               const Options& options) const {
     switch (operation_) {
     case Operation::split_u:
       return split_u(nets, piece.u0, out[0], out[1], options);
@@ -142,8 +142,8 @@ private:
     }
   }
 
-  NetReport apply_packed(const ControlNets<T>& nets, std::vector<Nets<T>>& to,
-                         const Piece& piece) const {
+  Report apply_packed(const ControlNets<T>& nets, std::vector<Nets<T>>& to,
+                      const Piece& piece) const {
     std::vector<MutableNets<T>> out;
     for (Nets<T>& one : to) {
       out.push_back(MutableNets<T>::packed(one.values.data(), one.count, one.degree_u, one.degree_v,
@@ -152,7 +152,7 @@ private:
     return apply(nets, out, piece, with({}, available_isas().front(), 1));
   }
 
-  void other_strides(const std::vector<Nets<T>>& expected, const NetReport& report,
+  void other_strides(const std::vector<Nets<T>>& expected, const Report& report,
                      const Piece& piece) {
     const Arrangement in_order(bytes_);
     const Arrangement out_order(bytes_);
@@ -166,8 +166,8 @@ private:
         memory.emplace_back(one, out_order, place);
         out.push_back(memory.back().view());
       }
-      const NetReport again = apply(input.view(), out, piece, with({}, isa, 2));
-      require(again.status == report.status && again.patch == report.patch &&
+      const Report again = apply(input.view(), out, piece, with({}, isa, 2));
+      require(again.status == report.status && again.item == report.item &&
                   again.point == report.point && again.component == report.component,
               named("an operation reports something else", isa));
       for (std::size_t k = 0; k < memory.size(); ++k) {
@@ -194,7 +194,7 @@ private:
       return;
     }
     std::vector<Nets<T>> again = results();
-    const NetReport report = apply_packed(reversed_u(nets_.view()), again, mirrored);
+    const Report report = apply_packed(reversed_u(nets_.view()), again, mirrored);
     require(report.status == Status::ok, "an operation refuses the reversed net");
     std::ranges::reverse(again); // low and high
     for (std::size_t k = 0; k < again.size(); ++k) {

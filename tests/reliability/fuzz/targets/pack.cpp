@@ -67,7 +67,7 @@ public:
 
   void run() {
     PatchSet<T> expected;
-    const PackReport report = pack(nets_.view(), expected, options_);
+    const Report report = pack(nets_.view(), expected, options_);
     require_packed(report, nets_.moderate);
     same_however_given(expected, report);
     hostile(expected);
@@ -81,9 +81,9 @@ private:
     return options;
   }
 
-  void require_same(const PackReport& report, const PatchSet<T>& set, const PackReport& expected,
+  void require_same(const Report& report, const PatchSet<T>& set, const Report& expected,
                     const PatchSet<T>& expected_set) {
-    require(report.status == expected.status && report.patch == expected.patch &&
+    require(report.status == expected.status && report.item == expected.item &&
                 report.point == expected.point && report.component == expected.component,
             "pack reports something else");
     if (report) {
@@ -92,14 +92,14 @@ private:
   }
 
   /// Strides, instruction sets and threads.
-  void same_however_given(const PatchSet<T>& expected, const PackReport& report) {
+  void same_however_given(const PatchSet<T>& expected, const Report& report) {
     const Arrangement arrangement(bytes_);
     StridedNets<S> strided(nets_, arrangement, placement(bytes_));
     strided.fill(nets_.values);
     for (const Isa isa : available_isas()) {
       PatchSet<T> set;
       const ControlNets<S> view = strided.view();
-      const PackReport again = pack(view, set, on(isa, isa == Isa::avx2 ? 2 : 1));
+      const Report again = pack(view, set, on(isa, isa == Isa::avx2 ? 2 : 1));
       require_same(again, set, report, expected);
     }
   }
@@ -116,7 +116,7 @@ private:
     options.threads = static_cast<int>(bytes_.below(3));
     const Verdict verdict = verdict_on(nets);
     PatchSet<T> set = before;
-    const PackReport report = pack(nets, set, options);
+    const Report report = pack(nets, set, options);
     require(verdict != Verdict::refused || !report, "pack takes nets that make no sense");
     require(verdict != Verdict::overflow || report.status == Status::size_overflow,
             "pack takes strides that overflow");
@@ -138,8 +138,8 @@ private:
                       point % (nets.degree_u + 1) * nets.point_stride + c * nets.component_stride]);
     }
     PatchSet<T> again;
-    const PackReport report = pack(copy.view(), again, options);
-    require_same(PackReport{}, set, report, again);
+    const Report report = pack(copy.view(), again, options);
+    require_same(Report{}, set, report, again);
   }
 
   ByteSource& bytes_;
