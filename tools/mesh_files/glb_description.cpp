@@ -34,7 +34,7 @@ std::string asset(const MeshContents& contents) {
   if (!contents.generator.empty()) {
     text += joined({",", member("generator", quoted(contents.generator))});
   }
-  if (has_deviation(contents)) {
+  if (contents.has_bound()) {
     text += joined({R"(,"extras":{)", member("deviation", shortest(*contents.deviation)), "}"});
   }
   text += '}';
@@ -59,7 +59,7 @@ std::string node(const MeshContents& contents) {
 // Programs that simplify a mesh may keep what the asset says about another one. What the mesh says
 // holds for a mesh of these counts.
 std::string mesh_extras(const MeshContents& contents, const GlbParts& parts) {
-  return has_deviation(contents)
+  return contents.has_bound()
              ? joined({R"(,"extras":{)", member("deviation", shortest(*contents.deviation)), ",",
                        member("vertices", parts.vertices), ",",
                        member("triangles", parts.triangles), "}"})

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -52,11 +51,6 @@ inline std::string member(std::string_view name, std::string_view value) {
 }
 inline std::string member(std::string_view name, std::uint64_t value) {
   return member(name, std::to_string(value));
-}
-
-/// JSON has no infinity.
-inline bool has_deviation(const MeshContents& contents) {
-  return contents.deviation && std::isfinite(*contents.deviation);
 }
 
 } // namespace simdbezier::tools

@@ -156,6 +156,11 @@ std::string spaced(const std::array<double, 3>& point) {
   return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
 }
 
+std::string worded_deviation(double deviation) {
+  return std::isfinite(deviation) ? "deviation " + shortest(deviation)
+                                  : "no bound on the deviation is known";
+}
+
 template <typename T>
 float as_float(const std::string& path, T value) {
   if (!(std::abs(value) <= static_cast<T>(std::numeric_limits<float>::max()))) {

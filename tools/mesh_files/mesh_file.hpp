@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -140,6 +141,8 @@ struct MeshContents {
   [[nodiscard]] std::size_t stride() const noexcept {
     return 3 + (normals ? 3U : 0U) + (uv ? 2U : 0U);
   }
+  /// Whether a bound is stated and known: formats of numbers state no other.
+  [[nodiscard]] bool has_bound() const { return deviation && std::isfinite(*deviation); }
   /// Returns how many bytes `data` has for a vertex.
   [[nodiscard]] std::size_t data_bytes() const noexcept {
     std::size_t bytes = 0;

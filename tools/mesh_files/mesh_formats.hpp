@@ -34,6 +34,10 @@ std::uintmax_t checked_file_size(const std::string& path, Count bytes);
 /// Returns "x y z", in the shortest decimals that read back to the same bits.
 [[nodiscard]] std::string spaced(const std::array<double, 3>& point);
 
+/// Returns a line of text about the deviation. Who looks for a number finds none where no bound is
+/// known, as in formats that cannot say so.
+[[nodiscard]] std::string worded_deviation(double deviation);
+
 /// Returns the value as float. Throws Failure where it is too large for one.
 template <typename T>
 [[nodiscard]] float as_float(const std::string& path, T value);

@@ -1,7 +1,6 @@
 #include <tools/mesh_files/vtu_file.hpp>
 
 #include <cassert>
-#include <cmath>
 #include <string_view>
 
 #include <tools/mesh_files/mesh_formats.hpp>
@@ -53,7 +52,7 @@ std::string field(const std::string& name, const std::string& components,
 
 std::string fields(const MeshContents& contents) {
   std::string text;
-  if (contents.deviation && std::isfinite(*contents.deviation)) { // text has no infinity
+  if (contents.has_bound()) {
     text += field("deviation", "", shortest(*contents.deviation));
   }
   if (contents.origin) {

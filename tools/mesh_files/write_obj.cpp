@@ -29,7 +29,7 @@ public:
       file_.text("# " + mesh.generator + "\n");
     }
     if (mesh.deviation) {
-      file_.text("# deviation " + shortest(*mesh.deviation) + "\n");
+      file_.text("# " + worded_deviation(*mesh.deviation) + "\n");
     }
     if (mesh.origin) {
       file_.text("# origin " + spaced(*mesh.origin) + "\n");

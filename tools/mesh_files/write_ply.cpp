@@ -26,7 +26,7 @@ std::string head_of(const MeshContents& mesh) {
   const std::string type = sizeof(T) == sizeof(float) || mesh.floats ? "float" : "double";
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += mesh.generator.empty() ? "" : "comment " + mesh.generator + "\n";
-  text += mesh.deviation ? "comment deviation " + shortest(*mesh.deviation) + "\n" : "";
+  text += mesh.deviation ? "comment " + worded_deviation(*mesh.deviation) + "\n" : "";
   text += mesh.origin ? "comment origin " + spaced(*mesh.origin) + "\n" : "";
   text += "element vertex " + std::to_string(mesh.vertices) + "\n";
   text += properties(type, {"x", "y", "z"});

@@ -43,7 +43,7 @@ std::string head_of(const MeshContents& mesh, const RecordLayout& layout) {
       joined({"{", member("format", quoted("simdbezier raw mesh 1")), ",",
               member("vertices", mesh.vertices), ",", member("vertex", records_of(layout)), ",",
               member("faces", mesh.faces), ",", member("corners", mesh.corners)});
-  text += has_deviation(mesh) ? "," + member("deviation", shortest(*mesh.deviation)) : "";
+  text += mesh.has_bound() ? "," + member("deviation", shortest(*mesh.deviation)) : "";
   text += mesh.origin ? "," + member("origin", list(*mesh.origin)) : "";
   text += mesh.generator.empty() ? "" : "," + member("generator", quoted(mesh.generator));
   text += "}";

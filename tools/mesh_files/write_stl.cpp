@@ -21,7 +21,7 @@ using Position = StlPosition;
 // all.
 std::string header(const MeshContents& mesh) {
   std::string text = "binary STL";
-  text += mesh.deviation ? ", deviation " + shortest(*mesh.deviation) : "";
+  text += mesh.deviation ? ", " + worded_deviation(*mesh.deviation) : "";
   const std::string origin = mesh.origin ? ", origin " + spaced(*mesh.origin) : "";
   text += text.size() + origin.size() <= kHeaderBytes ? origin : "";
   text += mesh.generator.empty() ? "" : ", " + mesh.generator;

@@ -266,7 +266,7 @@ std::vector<std::uint64_t> write_hdf_head(const RankFile& file, const MeshConten
   for (const char* const group : {"PointData", "CellData", "FieldData"}) {
     head.group(group);
   }
-  if (whole.deviation) {
+  if (whole.has_bound()) {
     head.numbers("FieldData/deviation", {1}, &*whole.deviation);
   }
   if (whole.origin) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include <fcntl.h>
@@ -98,7 +99,8 @@ PartHeader from_json(const Json& json) {
                 json.at("high").get<std::array<double, 3>>()};
   }
   if (json.contains("deviation")) {
-    mesh.deviation = json["deviation"].get<double>();
+    mesh.deviation = // JSON has null for infinity
+        json["deviation"].is_null() ? HUGE_VAL : json["deviation"].get<double>();
   }
   for (const Json& item : json.at("data")) {
     mesh.data.push_back({item.at(0), {item.at(1), item.at(2)}, item.at(3)});

@@ -98,6 +98,24 @@ TEST(Shards, joined_are_the_mesh_that_is_made_at_once) {
   }
 }
 
+// The last weight is too small for a bound on rounding.
+TEST(Shards, may_have_no_bound_on_their_deviation) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (const char* const light : {"1", "1e-9"}) {
+    text += std::string("8\n1 1\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 0 ") + light + "\n";
+  }
+  const std::string in = folder.write("light.bv", text);
+  for (const char* const extension : {"ply", "stl", "raw", "vtu", "glb"}) {
+    SCOPED_TRACE(extension);
+    const std::string whole = folder.path(std::string("whole.") + extension);
+    expect_success(run({"tessellate", in, "-o", whole, "--grid", "3"}));
+    const std::string out = folder.path(std::string("parts.") + extension);
+    make_in_parts({"light", in}, {extension, {"--grid", "3"}}, 2, out);
+    EXPECT_TRUE(read_file(whole) == read_file(out));
+  }
+}
+
 TEST(Shards, of_binary_patches_are_those_of_text) {
   const TemporaryFolder folder;
   for (const PartModel& model : part_models(folder)) {
