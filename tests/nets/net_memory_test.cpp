@@ -184,7 +184,8 @@ TEST_P(NetMemory, IsNotLeft) {
     const bool writes = std::string(call.name).ends_with("output");
     for (const auto stride : strides) {
       for (int k = 0; k < 2 * 63; ++k) {
-        for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{100}}) {
+        for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{100},
+                                        std::size_t{1} << 63, ~std::size_t{0}}) {
           for (const std::size_t first : {std::size_t{0}, std::size_t{48}, kValues - 1}) {
             Nets nets = Nets::packed(region.values());
             nets.points += first;
