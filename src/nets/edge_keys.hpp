@@ -16,9 +16,9 @@ namespace simdbezier::detail {
 /// Points that EdgeValues takes for the same have the same key; others hardly ever, unless they are
 /// made to.
 ///
-/// kDegree, kComponents: those of a net without weights, in both directions, or 0 where they are
-/// known at run time only.
-template <typename S, int kDegree, int kComponents>
+/// kDegree, kComponents: those of a net, in both directions, or 0 where they are known at run time
+/// only. kWeighted: whether it may have weights.
+template <typename S, int kDegree, int kComponents, bool kWeighted>
 class EdgeKeys {
 public:
   explicit EdgeKeys(const ControlNets<S>& nets) noexcept {
@@ -81,7 +81,7 @@ private:
     for (std::ptrdiff_t c = 0; c < components; ++c) {
       key = with_value(key, point[c * component_stride_]);
     }
-    if (kComponents == 0 && weights_ != Weights::none) {
+    if (kWeighted && weights_ != Weights::none) {
       const S weight = point[components * component_stride_];
       if (weight != 1) { // where it is 1, its form does not matter either
         key = with_value(key, weight) + static_cast<std::uint64_t>(weights_);
@@ -106,5 +106,17 @@ private:
   std::uint64_t seed_[kPatchEdges];
   std::uint64_t keys_[kPatchEdges][kMostOrder]; ///< [edge][point]
 };
+
+/// Calls use(keys) with those of a view.
+template <typename S, typename Use>
+void with_keys(const ControlNets<S>& nets, const Use& use) {
+  if (nets.degree_u != 3 || nets.degree_v != 3 || nets.components != 3) {
+    use(EdgeKeys<S, 0, 0, true>(nets));
+  } else if (nets.weights != Weights::none) {
+    use(EdgeKeys<S, 3, 3, true>(nets));
+  } else {
+    use(EdgeKeys<S, 3, 3, false>(nets));
+  }
+}
 
 } // namespace simdbezier::detail

@@ -109,11 +109,7 @@ template <typename S, typename Index>
 void hash_edges(const AllEdges<S>& edges, HashTarget<Index> to, int threads) noexcept {
   auto body = [&](int, std::size_t begin, std::size_t end) {
     edges.views().for_views(begin, end, [&](const auto& nets, auto view, auto first, auto last) {
-      if (shape_of(nets).is_bicubic()) {
-        hash_patches(edges, view, EdgeKeys<S, 3, 3>(nets), first, last, to);
-      } else {
-        hash_patches(edges, view, EdgeKeys<S, 0, 0>(nets), first, last, to);
-      }
+      with_keys(nets, [&](const auto& keys) { hash_patches(edges, view, keys, first, last, to); });
     });
   };
   divide_work(edges.views().patches(), 40, threads, body);

@@ -94,7 +94,7 @@ public:
     }
     // Edges that are compared are equal nearly always, and have the same zeros nearly always.
     const bool whole = a.component_stride == 1 && b.component_stride == 1 && a.components == 3 &&
-                       is_polynomial() && other.is_polynomial();
+                       a.weights == b.weights;
     return (whole && has_bytes_of(other)) || same_but_for_zeros(other);
   }
 
@@ -134,10 +134,13 @@ private:
     return is_polynomial() ? compared_bits(S(1)) : bits(k, form_->components);
   }
 
-  /// Of points whose three values are side by side: whether they have the same bytes.
+  /// Of points whose three values, and weights, are side by side: whether they have the same bytes.
   [[nodiscard]] bool has_bytes_of(const EdgeValues& other) const noexcept {
     for (std::ptrdiff_t k = 0; k <= form_->degree; ++k) {
-      if (std::memcmp(first_ + k * stride_, other.first_ + k * other.stride_, 3 * sizeof(S)) != 0) {
+      const S* const a = first_ + k * stride_;
+      const S* const b = other.first_ + k * other.stride_;
+      if (std::memcmp(a, b, 3 * sizeof(S)) != 0 ||
+          (!is_polynomial() && std::memcmp(a + 3, b + 3, sizeof(S)) != 0)) {
         return false;
       }
     }

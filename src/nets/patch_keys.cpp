@@ -69,11 +69,9 @@ Status find_patch_keys(std::span<const ControlNets<S>> nets, std::span<PatchKeys
   auto body = [&](int, std::size_t begin, std::size_t end) {
     views.for_views(begin, end, [&](const auto& view, auto number, auto first, auto last) {
       const auto own = keys.subspan(first, last - first);
-      if (detail::shape_of(view).is_bicubic()) {
-        detail::find_keys(views, view, number, detail::EdgeKeys<S, 3, 3>(view), first, own);
-      } else {
-        detail::find_keys(views, view, number, detail::EdgeKeys<S, 0, 0>(view), first, own);
-      }
+      detail::with_keys(view, [&](const auto& edges) {
+        detail::find_keys(views, view, number, edges, first, own);
+      });
     });
   };
   detail::divide_work(views.patches(), 60, options.threads, body);

@@ -1,10 +1,12 @@
 // Which edges and corners of known models are one.
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include <simdbezier/topology.hpp>
 
+#include "src/mesh/topology/quick_look.hpp"
 #include "tests/mesh/mesh_models.hpp"
 
 namespace simdbezier::tests::topology_test {
@@ -180,6 +182,70 @@ TEST(TopologyTest, patches_with_weights_of_one_repeat_those_without) {
       EXPECT_EQ(topology.counts().repeated_patches, inner == 1 ? 1U : 0U);
     }
   }
+}
+
+/// The patch as homogeneous values with weights whose products are rounded.
+template <typename S>
+std::vector<S> weighted(const PatchPoints& net) {
+  std::vector<S> values;
+  for (std::size_t k = 0; k < 16; ++k) {
+    const S weight = S(0.1) * static_cast<S>(1 + k * 7 % 11);
+    for (const double x : net[k / 4][k % 4]) {
+      values.push_back(static_cast<S>(x * double{weight}));
+    }
+    values.push_back(weight);
+  }
+  return values;
+}
+
+template <typename S>
+unsigned doubts(const PatchPoints& net) {
+  const std::vector<S> values = weighted<S>(net);
+  const auto view = ControlNets<S>::packed(values.data(), 1, 3, 3, 3, Weights::homogeneous);
+  return detail::QuickLook<S, true>(view).doubts(values.data());
+}
+
+/// A quick look at homogeneous points may leave nothing out, and has to be of use near the origin.
+template <typename S>
+void expect_doubts() {
+  for (const double angle : {0.0, 1e-12, 0.2, 3.1}) {
+    for (const double away : {0.0, 10.0, 1e9, 1e15}) {
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        SCOPED_TRACE(testing::Message() << angle << " at " << away << ", corner " << corner);
+        PatchPoints net = named("patch").patches[0];
+        const std::size_t i = corner % 2 * 3;
+        const std::size_t j = corner / 2 * 3;
+        const auto at = net[j][i];
+        net[j][i == 0 ? 1 : 2] = {at[0] + 1, at[1], at[2]};
+        net[j == 0 ? 1 : 2][i] = {at[0] + std::cos(angle), at[1] + std::sin(angle), at[2]};
+        for (std::size_t k = 0; k < 16; ++k) {
+          net[k / 4][k % 4][0] += away;
+        }
+        const double lost = away * std::numeric_limits<S>::epsilon(); // of steps of 1
+        const bool doubted = (doubts<S>(net) & unsigned{detail::kMayLeaveTogether} << corner) != 0;
+        if (angle < 0.1 || lost > 0.1) {
+          EXPECT_TRUE(doubted);
+        } else if (lost < 1e-5) {
+          EXPECT_FALSE(doubted);
+        }
+      }
+    }
+  }
+  for (std::size_t side = 0; side < kPatchEdges; ++side) {
+    PatchPoints net = named("patch").patches[0];
+    const auto corner = [&](std::size_t end) -> auto& {
+      const std::size_t k = detail::kSideCorners[side][end];
+      return net[k / 2 * 3][k % 2 * 3];
+    };
+    EXPECT_EQ(doubts<S>(net) / detail::kEndsMayMeet, 0U);
+    corner(0) = corner(1) = {3, 0.7, 0.3};
+    EXPECT_EQ(doubts<S>(net) / detail::kEndsMayMeet, 1U << side);
+  }
+}
+
+TEST(TopologyTest, quick_looks_at_quotients_leave_out_nothing) {
+  expect_doubts<float>();
+  expect_doubts<double>();
 }
 
 TEST(TopologyTest, bad_input_is_a_status) {

@@ -191,7 +191,7 @@ Batch<T> crossed_edges(Weights weights) {
 // Hashes do not tell from which end an edge is read, and so cannot tell all edges apart.
 TEST(Adjacency, EqualHashesOfDifferentEdges) {
   const Batch<float> batch = crossed_edges<float>(Weights::none);
-  detail::EdgeKeys<float, 3, 3> keys(batch.nets());
+  detail::EdgeKeys<float, 3, 3, false> keys(batch.nets());
   keys.read(&batch.at(0, 0, 0, 0));
   const std::uint64_t hash = keys.hash(0);
   keys.read(&batch.at(1, 0, 0, 0));
@@ -219,7 +219,7 @@ TEST(Adjacency, NoPointHidesOthersFromHashes) {
         batch.at(p, 0, k, c) = kHiding[k][c];
       }
     }
-    detail::EdgeKeys<float, 3, 3> keys(batch.nets());
+    detail::EdgeKeys<float, 3, 3, false> keys(batch.nets());
     keys.read(&batch.at(p, 0, 0, 0));
     hashes[p] = keys.hash(0);
   }

@@ -108,10 +108,15 @@ FreshVector<std::uint8_t> NetCorners<S>::doubts(int threads) const {
   FreshVector<std::uint8_t> doubts(views_.patches());
   auto body = [&](int, std::size_t begin, std::size_t end) {
     views_.for_views(begin, end, [&](const auto& nets, auto view, auto first, auto last) {
-      const QuickLook<S> look(nets);
-      for (std::size_t patch = first; patch < last; ++patch) {
-        const bool has_points = nets.weights != Weights::homogeneous;
-        doubts[patch] = has_points ? look.doubts(views_.net(view, patch)) : std::uint8_t{0xff};
+      const auto look_at = [&](const auto& look) {
+        for (std::size_t patch = first; patch < last; ++patch) {
+          doubts[patch] = look.doubts(views_.net(view, patch));
+        }
+      };
+      if (nets.weights == Weights::homogeneous) {
+        look_at(QuickLook<S, true>(nets));
+      } else {
+        look_at(QuickLook<S, false>(nets));
       }
     });
   };

@@ -16,10 +16,10 @@ namespace simdbezier::detail {
 /// the ends of a side.
 enum CornerDoubt : std::uint8_t { kMayLeaveTogether = 1, kEndsMayMeet = 16 };
 
-/// Looks at the corners of the patches of a view whose points in space are their values: nearly
-/// always, the next control points on both sides of a corner certainly lie in different directions,
-/// and the ends of a side in different places.
-template <typename S>
+/// Looks at the corners of the patches of a view: nearly always, the next control points on both
+/// sides of a corner certainly lie in different directions, and the ends of a side in different
+/// places. kDivided: whether points are homogeneous.
+template <typename S, bool kDivided>
 class QuickLook {
 public:
   explicit QuickLook(const ControlNets<S>& nets) : component_stride_(nets.component_stride) {
@@ -65,24 +65,41 @@ private:
     Lanes square_u = {};
     Lanes square_v = {};
     Lanes product = {};
+    Lanes least = Lanes{} + S(0x1p-60);
     for (std::ptrdiff_t c = 0; c < 3; ++c) {
-      const S* const values = net + c * component_stride_;
-      const Lanes corner = gather(values, corner_ + first);
-      const Lanes u = gather(values, next_u_ + first) - corner;
-      const Lanes v = gather(values, next_v_ + first) - corner;
+      const Lanes corner = points(net, c, corner_ + first);
+      const Lanes u = points(net, c, next_u_ + first) - corner;
+      const Lanes v = points(net, c, next_v_ + first) - corner;
       square_u += u * u;
       square_v += v * v;
       product += u * v;
+      if constexpr (kDivided) { // then roundings turn a difference by a thousandth at most
+        least += corner * corner * (sizeof(S) == sizeof(float) ? S(0x1p-22) : S(0x1p-80));
+      }
     }
     // Elsewhere products may vanish or overflow; differences are rounded once, wherever points are.
-    const auto is_usual = (square_u > S(0x1p-60)) & (square_u < S(0x1p60)) &
-                          (square_v > S(0x1p-60)) & (square_v < S(0x1p60));
+    const auto is_usual =
+        (square_u > least) & (square_u < S(0x1p60)) & (square_v > least) & (square_v < S(0x1p60));
     const auto part = (product <= 0) | (product * product < S(0.98) * square_u * square_v);
     return ~(is_usual & part);
   }
 
-  /// Whether the coordinates of both ends are the same but for their signs.
+  /// Coordinate c of the points at some places.
+  Lanes points(const S* net, std::ptrdiff_t c, const std::ptrdiff_t* at) const {
+    const Lanes values = gather(net + c * component_stride_, at);
+    return kDivided ? values / gather(net + 3 * component_stride_, at) : values;
+  }
+
+  /// Whether the coordinates of both ends are the same but for their signs, or may be one point.
   [[nodiscard]] bool ends_may_meet(const S* net, std::size_t side) const {
+    if constexpr (kDivided) {
+      const auto value = [&](std::size_t end, std::size_t c) {
+        return static_cast<double>(net[corner_[kSideCorners[side][end]] +
+                                       static_cast<std::ptrdiff_t>(c) * component_stride_]);
+      };
+      return !are_surely_apart(value, 0, 1, 3,
+                               one_point_tolerance(Weights::homogeneous, sizeof(S) == 8));
+    }
     BitsOf<S> difference = 0;
     for (std::ptrdiff_t c = 0; c < 3; ++c) {
       const S* const values = net + c * component_stride_;
