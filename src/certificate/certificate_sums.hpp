@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include "src/certificate/direction_roundings.hpp"
 #include "src/storage/net_shape.hpp"
@@ -19,27 +18,33 @@ public:
       : order_u_(u.order), order_v_(v.order) {
     for (std::size_t k = 0; k < order_u_; ++k) {
       for (std::size_t l = 0; l < order_v_; ++l) {
-        at_[k * order_v_ + l] = {std::ldexp(1.0, -static_cast<int>(k + l)),
-                                 u.value(k) + v.value(l) + 1, u.slope(k) + v.value(l) + 1,
-                                 u.value(k) + v.slope(l) + 1};
+        const std::size_t term = k * order_v_ + l;
+        scale_[term] = std::ldexp(1.0, -static_cast<int>(k + l));
+        value_[term] = u.value(k) + v.value(l) + 1;
+        du_[term] = u.slope(k) + v.value(l) + 1;
+        dv_[term] = u.value(k) + v.slope(l) + 1;
       }
     }
   }
 
-  struct Factors {
-    double scale; ///< 2^-(k+l)
-    double value; ///< roundings of a term, and one of its coefficient
-    double du;
-    double dv;
-  };
-  /// The factors of all terms, [power k of X][power l of Y].
-  [[nodiscard]] std::span<const Factors> all() const { return {at_, order_u_ * order_v_}; }
+  [[nodiscard]] std::size_t terms() const { return order_u_ * order_v_; }
+  /// Sets to[term] to what each coefficient c adds to TermSums::value.
+  template <typename T>
+  void weigh(const T* c, std::size_t count, double* to) const {
+    for (std::size_t term = 0; term < count; ++term) {
+      to[term] = value_[term] * (std::fabs(static_cast<double>(c[term])) * scale_[term]);
+    }
+  }
 
 private:
   friend struct TermSums;
   std::size_t order_u_;
   std::size_t order_v_;
-  Factors at_[kMostOrder * kMostOrder];
+  // Of all terms, [power k of X][power l of Y]:
+  double scale_[kMostOrder * kMostOrder]; ///< 2^-(k+l)
+  double value_[kMostOrder * kMostOrder]; ///< roundings of a term, and one of its coefficient
+  double du_[kMostOrder * kMostOrder];
+  double dv_[kMostOrder * kMostOrder];
 };
 
 /// Sums over the terms of a polynomial at |X| = |Y| = 1/2, where they are largest.
@@ -63,21 +68,21 @@ struct TermSums {
   template <typename At>
   TermSums(const TermFactors& factors, bool derivatives, const At& at)
       : constant(static_cast<double>(at(0, 0))) {
-    const TermFactors::Factors* factor = factors.at_;
+    std::size_t k_l = 0;
     for (std::size_t k = 0; k < factors.order_u_; ++k) {
-      for (std::size_t l = 0; l < factors.order_v_; ++l, ++factor) {
+      for (std::size_t l = 0; l < factors.order_v_; ++l, ++k_l) {
         const double c = std::fabs(static_cast<double>(at(k, l)));
-        const double term = c * factor->scale;
+        const double term = c * factors.scale_[k_l];
         size += term;
-        value += factor->value * term;
+        value += factors.value_[k_l] * term;
         way += c;
         if (derivatives) {
           const double term_u = 2 * static_cast<double>(k) * term;
           const double term_v = 2 * static_cast<double>(l) * term;
           size_u += term_u;
           size_v += term_v;
-          du += factor->du * term_u;
-          dv += factor->dv * term_v;
+          du += factors.du_[k_l] * term_u;
+          dv += factors.dv_[k_l] * term_v;
           way_u += static_cast<double>(k) * c;
           way_v += static_cast<double>(l) * c;
         }
