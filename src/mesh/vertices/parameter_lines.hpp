@@ -90,11 +90,17 @@ public:
     }
     return values;
   }
+  /// The same points as shares of the edge, from 0 to 1, of a line that is there. Their mirror
+  /// images are among them, so that backwards they are those of a side in the other direction.
+  [[nodiscard]] const T* shares(std::uint32_t a, std::uint32_t b) const noexcept {
+    return memory_ + slot_of(a, b) * kSlotValues + kSharesAt;
+  }
 
 private:
   static constexpr std::size_t kSide = 16;
   static constexpr std::size_t kSlots = kSide * kSide;
-  static constexpr std::size_t kSlotValues = 2 * kMost + kMaxLanes;
+  static constexpr std::size_t kSharesAt = 2 * kMost + kMaxLanes;
+  static constexpr std::size_t kSlotValues = kSharesAt + 2 * kMost;
 
   static std::size_t slot_of(std::uint32_t a, std::uint32_t b) noexcept {
     return (b - a) % kSide * kSide + a % kSide;
@@ -104,6 +110,7 @@ private:
     std::size_t points = 0;
     walk_union(rates, next, [&](std::uint32_t, const std::uint32_t* at, std::size_t lowest) {
       if (at[lowest] > 0 && at[lowest] < rates[lowest]) {
+        to[kSharesAt + points] = static_cast<T>(at[lowest]) / static_cast<T>(rates[lowest]);
         to[points++] = uniform_parameter<T>(at[lowest], rates[lowest]);
       }
     });

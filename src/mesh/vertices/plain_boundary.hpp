@@ -87,11 +87,11 @@ public:
       run(to);
     }
     bucket_ = bucket;
-    if (to.parameters.wanted()) {
-      put_parameters(edge, sides.front(), to);
-    }
     EdgeJob<T>& job = jobs_[count_++];
     job.along = united ? unions_.line(low, high) : lines_.line(high);
+    if (to.parameters.wanted()) {
+      put_parameters(edge, sides.front(), united ? unions_.shares(low, high) : nullptr, to);
+    }
     job.points = segments - 1;
     job.place = mesh_.edge_first[edge] - to.first;
     job.members = 0;
@@ -146,7 +146,7 @@ private:
       return false;
     }
     if (to.parameters.wanted()) {
-      put_parameters(edge, own, to);
+      put_parameters(edge, own, nullptr, to);
     }
     const std::uint32_t segments = mesh_.segments[edge];
     const std::size_t place = mesh_.edge_first[edge] - to.first;
@@ -172,23 +172,21 @@ private:
     return true;
   }
 
-  /// Those of the points between an edge's ends, on its first side.
-  void put_parameters(std::uint32_t edge, std::uint32_t side,
+  /// Those of the points between an edge's ends, on its first side. shares: where they are on the
+  /// edge; null where all segments are equal.
+  void put_parameters(std::uint32_t edge, std::uint32_t side, const T* shares,
                       const VertexTarget<T>& to) const noexcept {
-    std::size_t at = mesh_.edge_first[edge] - to.parameters_first;
+    const std::size_t at = mesh_.edge_first[edge] - to.parameters_first;
     const std::uint32_t segments = mesh_.segments[edge];
-    if (segments == mesh_.rate(side)) { // all other rates are divisors of it
-      for (std::uint32_t k = 1; k < segments; ++k) {
-        put_side_parameters(topology_, side, k, segments, at++, to.parameters);
-      }
-      return;
+    const bool reversed = topology_.sides[side].reversed();
+    const T end = T(side % 2);
+    for (std::uint32_t k = 1; k < segments; ++k) {
+      const std::uint32_t along = reversed ? segments - k : k;
+      const T t =
+          shares == nullptr ? static_cast<T>(along) / static_cast<T>(segments) : shares[along - 1];
+      to.parameters.put(at + k - 1, side / kPatchEdges, runs_in_u(side) ? t : end,
+                        runs_in_u(side) ? end : t);
     }
-    std::uint32_t scratch[4]; // of two sides
-    for_edge_points(mesh_, edge, scratch,
-                    [&](std::uint32_t, std::uint32_t numerator, std::uint32_t denominator) {
-                      put_side_parameters(topology_, side, numerator, denominator, at++,
-                                          to.parameters);
-                    });
   }
 
   const MeshData& mesh_;
