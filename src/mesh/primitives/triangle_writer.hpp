@@ -22,14 +22,35 @@ public:
     for (std::size_t patch = first; patch < last; ++patch) {
       const bool turned = mesh_.topology.is_turned(patch);
       to = stream_.make_room(to);
-      to = !sides_.move_to(patch) ? write_any(patch, turned)
-           : turned               ? write_regular<true>(patch, to)
-                                  : write_regular<false>(patch, to);
+      to = is_cell(patch)           ? write_cell(patch, turned, to)
+           : !sides_.move_to(patch) ? write_any(patch, turned)
+           : turned                 ? write_regular<true>(patch, to)
+                                    : write_regular<false>(patch, to);
     }
     stream_.finish(to);
   }
 
 private:
+  /// Whether a patch is one cell of two triangles: no side is a point, and none has vertices
+  /// between its ends.
+  [[nodiscard]] bool is_cell(std::size_t patch) const {
+    const std::uint32_t* const at = &mesh_.corners[kPatchCorners * patch];
+    return mesh_.nu[patch] == 1 && mesh_.nv[patch] == 1 &&
+           mesh_.triangles[patch + 1] - mesh_.triangles[patch] == 2 && at[0] != at[1] &&
+           at[0] != at[2] && at[0] != at[3] && at[1] != at[2] && at[1] != at[3] && at[2] != at[3];
+  }
+  Index* write_cell(std::size_t patch, bool turned, Index* to) const {
+    CellCorners corners;
+    std::copy_n(&mesh_.corners[kPatchCorners * patch], kPatchCorners, corners.at);
+    put_halves(corners, CellZones(mesh_, patch).falling(0, 0),
+               [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                 to[0] = static_cast<Index>(a);
+                 to[1] = static_cast<Index>(turned ? c : b);
+                 to[2] = static_cast<Index>(turned ? b : c);
+                 to += 3;
+               });
+    return to;
+  }
   template <bool kTurned>
   Index* write_regular(std::size_t patch, Index* to) {
     if (mesh_.nu[patch] == 1 || mesh_.nv[patch] == 1) {
