@@ -7,7 +7,9 @@ const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY'
 const MESH_OPTIONS = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
   'flip', 'bits'];
 const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
+const VECTORS = OUTPUTS.slice(0, OUTPUTS.indexOf('curvature'));
 const CURVATURES = ['gaussian', 'mean', 'minimum', 'maximum'];
+const ARRAYS = [...VECTORS, 'records', ...CURVATURES, 'status'];
 const WEIGHTS = ['none', 'cartesian', 'homogeneous'];
 const LAYOUTS = ['triples', 'planes', 'interleaved'];
 const FORMATS = ['glb', 'ply'];
@@ -38,6 +40,12 @@ function expectKnown(options, known) {
     if (!known.includes(name)) fail(`expected options among ${known.join(', ')}, found ${name}`);
   }
 }
+
+/** What the last calls for a set left behind, as it was then. */
+class Results {
+  constructor(values) { this.values = values.slice(); }
+}
+RESULTS.forEach((name, k) => Object.defineProperty(Results.prototype, name, { get() { return this.values[k]; } }));
 
 /** Compiles and starts an instance. source: bytes, a WebAssembly.Module, or a Response, or a promise of one. */
 export async function instantiate(source) {
@@ -207,8 +215,7 @@ class PatchSet {
     return this.#handle;
   }
   #results() {
-    const values = new Float64Array(this.#wasm.memory.buffer, this.#wasm.results(this.#use()) >>> 0, RESULTS.length);
-    return Object.fromEntries(RESULTS.map((name, k) => [name, values[k]]));
+    return new Results(new Float64Array(this.#wasm.memory.buffer, this.#wasm.results(this.#use()) >>> 0, RESULTS.length));
   }
   #expect(done) {
     if (!done) throw new Error(message(this.#wasm));
@@ -280,28 +287,34 @@ class Mesh {
 }
 
 class SampleArrays {
-  #view; #about; #wanted; #layout;
+  #view; #about; #wanted; #vectors; #records;
   constructor(view, about, wanted, layout) {
     this.#view = view;
     this.#about = about;
     this.#wanted = wanted;
-    this.#layout = layout;
-    const vectors = wanted.filter((name) => name !== 'curvature' && name !== 'status');
-    const samples = this.count, at = about.sampleData;
-    const part = (first, size) => () => {
-      const all = this.#view(at, 0);
-      return this.#view(at + all.BYTES_PER_ELEMENT * first, size);
-    };
-    const define = (name, get) => Object.defineProperty(this, name, { get, enumerable: true });
-    if (layout === 'interleaved') define('records', part(0, 3 * vectors.length * samples));
-    else vectors.forEach((name, k) => define(name, part(3 * k * samples, 3 * samples)));
-    if (wanted.includes('curvature')) {
-      CURVATURES.forEach((name, k) => define(name, part((3 * vectors.length + k) * samples, samples)));
-    }
-    if (wanted.includes('status')) define('status', () => this.#view(this.#about.statusData, samples, Uint8Array));
+    this.#vectors = wanted.filter((name) => VECTORS.includes(name));
+    this.#records = layout === 'interleaved';
   }
   get count() { return this.#about.samples; }
-  copy() { return copied(this, Object.keys(this), ['count']); }
+  get records() { return this.#records ? this.#part(0, 3 * this.#vectors.length) : undefined; }
+  get status() {
+    return this.#wanted.includes('status') ? this.#view(this.#about.statusData, this.count, Uint8Array) : undefined;
+  }
+  #part(first, values) { // a sample
+    const all = this.#view(this.#about.sampleData, (first + values) * this.count);
+    return all.subarray(first * this.count);
+  }
+  copy() { return copied(this, ARRAYS.filter((name) => this[name]), ['count']); }
+
+  static { // for all results at once: properties of each would take most of the time of a call on a few samples
+    const define = (name, find) => Object.defineProperty(this.prototype, name, { get() { return find(this); } });
+    VECTORS.forEach((name) => define(name, (all) => {
+      const k = all.#vectors.indexOf(name);
+      return k < 0 || all.#records ? undefined : all.#part(3 * k, 3);
+    }));
+    CURVATURES.forEach((name, k) => define(name, (all) =>
+      all.#wanted.includes('curvature') ? all.#part(3 * all.#vectors.length + k, 1) : undefined));
+  }
 }
 
 function copied(results, arrays, values) {
