@@ -147,9 +147,12 @@ SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& t
   RateGroup<V> result;
   result.size = power_of_two_below<V>(extent);
   const V inverse = divide(broadcast<V>(T(1)), result.size);
+  V sum = broadcast<V>(T(0));
   for (SpaceVector<V>& p : scratch.points) {
     p = inverse * p;
+    sum = sum + ((p.x + p.y) + p.z);
   }
+  result.size = result.size + broadcast<V>(T(0)) * sum; // nan where a value is: extents may not be
   form_quarters<V>(scratch, result.largest);
   // Points around the first one err by u, their second differences by 12 u a component before the
   // factors 6 and 9; halving and raising round ten times, relative to the largest vector.
@@ -163,7 +166,8 @@ SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& t
   return result;
 }
 
-/// Whether sums of such numbers stay within range; patches of other sizes are left undecided.
+/// Whether sums of such numbers stay within range; patches of other sizes, and those with values
+/// that are not finite, are left undecided.
 template <typename T>
 SIMDBEZIER_INLINE bool is_usual_size(T size) {
   return size > kSafelySmall<T> && size < kSafelyLarge<T>;

@@ -97,11 +97,7 @@ public:
 
   /// Chooses rates, with their certificates.
   Report choose() {
-    if (const Report checked = find_faults(); !checked) {
-      return checked;
-    }
-    const Report ran = run_kernels(true);
-    if (!ran) {
+    if (const Report ran = run_kernels(true); !ran) {
       return ran;
     }
     const auto is_open = [&](std::size_t patch, bool kernel) {
@@ -162,9 +158,6 @@ public:
       if (!is_rate(out_.cells_u[patch]) || !is_rate(out_.cells_v[patch])) {
         return {Status::bad_rates, patch};
       }
-    }
-    if (const Report checked = find_faults(); !checked) {
-      return checked;
     }
     if (const Report ran = run_kernels(false); !ran) {
       return ran;
@@ -242,10 +235,14 @@ private:
     });
   }
 
+  /// Nets that a kernel has seen are looked at again only if it has left some undecided.
   Report find_faults() const {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : nets_) {
-      const Report checked = find_fault(nets, run_.threads);
+      const auto seen = deviations_.subspan(first, nets.count);
+      const bool decided = suits_kernel(nets) &&
+                           std::all_of(seen.begin(), seen.end(), [](double d) { return d >= 0; });
+      const Report checked = decided ? Report{} : find_fault(nets, run_.threads);
       if (!checked) {
         return {checked.status, first + checked.item};
       }
@@ -254,7 +251,7 @@ private:
     return {};
   }
 
-  /// Chooses rates, or certifies those that are there, however few their cells.
+  /// Chooses rates, or certifies those that are there, however few their cells. Finds faults.
   Report run_kernels(bool choose) {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : nets_) {
@@ -279,7 +276,7 @@ private:
       }
       first += nets.count;
     }
-    return {};
+    return find_faults();
   }
 
   /// Calls visit(group) for all patches with is_open(patch, whether a kernel has seen it), in
