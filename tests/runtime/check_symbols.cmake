@@ -1,7 +1,16 @@
-# cmake -DNM=… -DOBJDUMP=… -DISA=avx2 -DCOMPACT=0 -DOBJECTS=a.o;b.o -P check_symbols.cmake
-# Fails on a weak or global definition whose name does not carry the instruction set, on
+# cmake -DNM=… -DOBJDUMP=… -DISA=avx2 -DCOMPACT=0 -DOPTIMISED=1 -DOBJECTS=a.o;b.o -P check_symbols.cmake
+# Fails on an object with more code than its budget, on a weak or global definition whose name does not carry the instruction set, on
 # initialisers that would run on every machine, and where a kernel's prefetches are missing, which
 # compilers drop from functions that seem to do nothing else.
+
+# KB of code that the kernels may have, so that a new strategy does not go unnoticed: the largest of
+# all instruction sets, rounded up.
+set(budget_bicubic 2000)
+set(budget_shape 1300)
+set(budget_curve 600)
+set(budget_net 210)
+set(budget_mesh 50)
+
 foreach(object IN LISTS OBJECTS)
   execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols
                   COMMAND_ERROR_IS_FATAL ANY)
@@ -19,6 +28,18 @@ foreach(object IN LISTS OBJECTS)
                   COMMAND_ERROR_IS_FATAL ANY)
   if(sections MATCHES "\\.(init_array|ctors)")
     message(SEND_ERROR "${object}: has initialisers that run at load time")
+  endif()
+  if(OPTIMISED AND object MATCHES "([a-z]+)_kernels\\.cpp")
+    set(budget ${budget_${CMAKE_MATCH_1}})
+    set(bytes 0)
+    string(REGEX MATCHALL "\\.text[^ ]* +[0-9a-f]+" parts "${sections}")
+    foreach(part IN LISTS parts)
+      string(REGEX REPLACE "^[^ ]+ +" "0x" size "${part}")
+      math(EXPR bytes "${bytes} + ${size}")
+    endforeach()
+    if(NOT parts OR bytes GREATER ${budget}000)
+      message(SEND_ERROR "${object}: ${bytes} bytes of code, and ${budget} KB are allowed")
+    endif()
   endif()
   set(prefetching)
   if(object MATCHES "shape_kernels")
