@@ -92,7 +92,7 @@ void WeldedMesh<T>::take_points(PatchFile file) {
   }
   file_ = std::make_unique<PatchFile>(std::move(file));
   nets_ = file_->template nets<T>();
-  if (std::is_same_v<T, float>) { // and otherwise nets are in the file's own memory
+  if (!nets_.in_file) {
     file_.reset();
   }
 }

@@ -66,4 +66,23 @@ std::size_t ByteSource::read(char* data, std::size_t size) {
   }
 }
 
+std::shared_ptr<std::byte[]> ByteSource::take(std::size_t size) {
+  std::shared_ptr<std::byte[]> bytes = gunzip_ ? nullptr : stored_->map(size);
+  if (bytes != nullptr) {
+    if (progress_ != nullptr) {
+      progress_->advance(size);
+    }
+    return bytes;
+  }
+  bytes.reset(new std::byte[size]);
+  for (std::size_t found = 0; found < size;) {
+    const std::size_t more = read(reinterpret_cast<char*>(bytes.get()) + found, size - found);
+    if (more == 0) {
+      return nullptr;
+    }
+    found += more;
+  }
+  return bytes;
+}
+
 } // namespace simdbezier::tools

@@ -29,6 +29,9 @@ public:
 
   /// Returns how many bytes there were; 0 at the end only. Throws DamagedInput.
   [[nodiscard]] virtual std::size_t read(char* data, std::size_t size) = 0;
+  /// Returns so many bytes that follow those that were read, without a copy; null where they are
+  /// not those of a file, or there are fewer.
+  [[nodiscard]] virtual std::shared_ptr<std::byte[]> map(std::size_t /*size*/) { return nullptr; }
   /// Returns how many there are in all; 0 where that is unknown, as for pipes.
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 };
@@ -50,6 +53,9 @@ public:
 
   /// Returns how many bytes there were; 0 at the end only. Throws DamagedInput.
   [[nodiscard]] std::size_t read(char* data, std::size_t size);
+
+  /// Returns the next bytes, which may be changed; null where there are fewer. Throws DamagedInput.
+  [[nodiscard]] std::shared_ptr<std::byte[]> take(std::size_t size);
 
   /// Returns the size as it is stored, in bytes; 0 where that is unknown, as for pipes.
   [[nodiscard]] std::uint64_t stored_size() const { return stored_->size(); }

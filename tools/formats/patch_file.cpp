@@ -126,6 +126,38 @@ void PatchFile::close_indexed_mesh(int degree_u, int degree_v, Weights weights,
   add(run);
 }
 
+template <typename S>
+void PatchFile::close_stored(PatchRun shape, std::size_t patches, const S* values) {
+  const std::size_t columns = static_cast<std::size_t>(shape.degree_u) + 1;
+  const std::size_t rows = static_cast<std::size_t>(shape.degree_v) + 1;
+  shape.stride = shape.values_per_point();
+  shape.u = {columns, columns, 1};
+  shape.v = {patches * rows, rows, patches};
+  if constexpr (std::is_same_v<S, float>) {
+    shape.floats = values;
+  } else {
+    shape.doubles = values;
+  }
+  add(shape);
+}
+
+template void PatchFile::close_stored(PatchRun, std::size_t, const float*);
+template void PatchFile::close_stored(PatchRun, std::size_t, const double*);
+
+void PatchFile::take_values() {
+  for (PatchRun& run : runs) {
+    if (run.floats != nullptr || run.doubles != nullptr) {
+      run.first_value = points.size();
+      visit_values(run, [&](const auto* values) {
+        points.insert(points.end(), values, values + run.values());
+      });
+      run.floats = nullptr;
+      run.doubles = nullptr;
+    }
+  }
+  memory.clear();
+}
+
 void PatchFile::add(PatchRun run) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
   const std::size_t patches = run.u.patches * run.v.patches; // fewer than points
@@ -156,8 +188,12 @@ bool PatchRun::is_column() const noexcept {
 }
 
 bool PatchRun::is_column_like(const PatchRun& patch) const noexcept {
+  const auto follows = [&](const auto* before, const auto* next) {
+    return (before == nullptr ? nullptr : before + values()) == next;
+  };
   return is_column() && degree_u == patch.degree_u && degree_v == patch.degree_v &&
-         weights == patch.weights && first_vertex.has_value() == patch.first_vertex.has_value();
+         weights == patch.weights && first_vertex.has_value() == patch.first_vertex.has_value() &&
+         follows(floats, patch.floats) && follows(doubles, patch.doubles);
 }
 
 const PatchRun& PatchFile::run_of(std::size_t patch) const {
@@ -172,9 +208,12 @@ PatchFile::RunPoint PatchFile::find(std::size_t patch, std::size_t point) const 
   return {run, point_index(run, k)};
 }
 
-std::span<const double> PatchFile::point(std::size_t patch, std::size_t point) const {
-  const auto [run, index] = find(patch, point);
-  return std::span(points).subspan(run.first_value + index * run.stride, run.values_per_point());
+std::vector<double> PatchFile::point(std::size_t patch, std::size_t point) const {
+  const RunPoint at = find(patch, point);
+  return visit_values(at.run, [&](const auto* values) {
+    values += at.index * at.run.stride;
+    return std::vector<double>(values, values + at.run.values_per_point());
+  });
 }
 
 std::string PatchFile::place(std::size_t patch, std::size_t point) const {
@@ -190,26 +229,31 @@ void PatchFile::append(const PatchRun& run, std::size_t patch, LargeVector<S>& v
   const auto columns = static_cast<std::size_t>(run.degree_u) + 1;
   const auto rows = static_cast<std::size_t>(run.degree_v) + 1;
   const std::size_t each = run.values_per_point();
-  for (std::size_t j = 0; j < rows; ++j) {
-    for (std::size_t i = 0; i < columns; ++i) {
-      const std::size_t index = point_index(run, run.mesh_point(patch, i, j));
-      const double* const value = points.data() + run.first_value + index * run.stride;
-      for (std::size_t c = 0; c < each; ++c) {
-        values.push_back(static_cast<S>(value[c]));
+  visit_values(run, [&](const auto* first) {
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        const auto* const value =
+            first + point_index(run, run.mesh_point(patch, i, j)) * run.stride;
+        for (std::size_t c = 0; c < each; ++c) {
+          values.push_back(static_cast<S>(value[c]));
+        }
       }
     }
-  }
+  });
 }
 
 template <typename S>
 const S* PatchFile::in_place(const PatchRun& run, std::size_t patch) const {
-  if constexpr (std::is_same_v<S, double>) {
-    if (run.is_column() && !run.first_vertex && run.stride == run.values_per_point()) {
-      return points.data() + run.first_value +
-             (patch - run.first_patch) * run.points_per_patch() * run.stride;
-    }
+  if (!run.is_column() || run.first_vertex || run.stride != run.values_per_point()) {
+    return nullptr;
   }
-  return nullptr;
+  return visit_values(run, [&](const auto* first) -> const S* {
+    if constexpr (std::is_same_v<decltype(first), const S*>) {
+      return first + (patch - run.first_patch) * run.points_per_patch() * run.stride;
+    } else {
+      return nullptr;
+    }
+  });
 }
 
 // Collects patches, of which number(k) is the k-th one's number.
@@ -241,6 +285,7 @@ PatchNets<S> PatchFile::gather(std::size_t patches, const Number& number) const 
   std::size_t next = 0;
   for (const Part& part : parts) {
     const S* const end = result.values.data() + result.values.size();
+    result.in_file |= part.values != nullptr;
     result.nets.push_back(ControlNets<S>::packed(part.values != nullptr ? part.values : end,
                                                  part.count, part.run->degree_u, part.run->degree_v,
                                                  3, part.run->weights));

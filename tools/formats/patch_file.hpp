@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,12 +29,15 @@ struct PatchRun {
   std::size_t first_patch = 0; ///< its number in the file
   std::size_t first_point = 0; ///< index into PatchFile::lines
   std::size_t first_value = 0; ///< index into PatchFile::points
+  /// Its first value, where that is in PatchFile::memory; at most one of these is not null.
+  const float* floats = nullptr;
+  const double* doubles = nullptr;
   MeshDirection u = {};
   MeshDirection v = {};
   /// The points of the mesh are those that PatchFile::vertices names from here on. Without a value,
   /// they stand one after the other.
   std::optional<std::size_t> first_vertex = std::nullopt;
-  std::size_t stride = 3; ///< the step from point to point in PatchFile::points
+  std::size_t stride = 3; ///< the step from point to point among the values
 
   [[nodiscard]] bool rational() const noexcept { return weights != Weights::none; }
   /// Returns 3 for x y z, 4 with w.
@@ -45,6 +49,8 @@ struct PatchRun {
   [[nodiscard]] bool is_patch() const noexcept;
   /// Returns whether it is patches below each other that share nothing.
   [[nodiscard]] bool is_column() const noexcept;
+  /// Returns how many values the points of the mesh have.
+  [[nodiscard]] std::size_t values() const noexcept { return u.points * v.points * stride; }
   /// Returns whether it is such patches and `patch` could be the next one.
   [[nodiscard]] bool is_column_like(const PatchRun& patch) const noexcept;
   /// Returns the number of the mesh's point that is (i, j) of a patch; the run's first one has 0.
@@ -61,11 +67,13 @@ struct PatchNets {
   /// read where the file has them.
   LargeVector<S> values;
   std::vector<ControlNets<S>> nets;
+  bool in_file = false; ///< whether some are read where the file has them
 };
 
 /// Patches of any degrees, polynomial and rational ones, in the order of the file. Points that a
 /// file shares between patches are shared here as well, so memory depends on the file's size and
-/// not on the number of patches. Weights stay in the form in which the format has them.
+/// not on the number of patches. Weights stay in the form in which the format has them. Numbers of
+/// text are in `points`; binary ones stay where and as they are.
 struct PatchFile {
   static constexpr std::size_t kAll = static_cast<std::size_t>(-1);
 
@@ -75,6 +83,7 @@ struct PatchFile {
   LargeVector<double> points; ///< x y z or x y z w; finite, weights that count above 0
   LargeVector<std::uint32_t>
       lines; ///< of every point's first coordinate; empty where there is no file
+  std::vector<std::shared_ptr<const std::byte[]>> memory; ///< of values as files store them
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
   double moved_error = 0;              ///< how far points may be from where they were moved to
   double knot_tolerance = 0;           ///< that of close_spline()
@@ -98,15 +107,38 @@ struct PatchFile {
   /// four values, of which the last one counts only if there are weights.
   void close_indexed_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
                           const MeshDirection& v);
+  /// Or they hand over stored patches of one shape. A value is a float or a double.
+  template <typename S>
+  void close_stored(PatchRun shape, std::size_t patches, const S* values);
   /// Or they hand over a spline surface, whose patches are added one by one. Its patches and points
   /// have the spline's line. Throws Failure where knots, ranges or numbers of points do not fit.
   void close_spline(const FileSpline& spline);
 
   [[nodiscard]] const PatchRun& run_of(std::size_t patch) const;
   /// Returns the values of one point.
-  [[nodiscard]] std::span<const double> point(std::size_t patch, std::size_t point) const;
+  [[nodiscard]] std::vector<double> point(std::size_t patch, std::size_t point) const;
   /// Returns "FILE:LINE" of a point, or the bare name.
   [[nodiscard]] std::string place(std::size_t patch, std::size_t point) const;
+
+  /// Calls visit() with the first value of a run, which is a float or a double.
+  template <typename Visit>
+  auto visit_values(const PatchRun& run, const Visit& visit) const {
+    return run.floats != nullptr    ? visit(run.floats)
+           : run.doubles != nullptr ? visit(run.doubles)
+                                    : visit(points.data() + run.first_value);
+  }
+  /// Calls visit() with all values, as some spans of floats or doubles.
+  template <typename Visit>
+  void visit_all_values(const Visit& visit) const {
+    visit(std::span<const double>(points));
+    for (const PatchRun& run : runs) {
+      if (run.floats != nullptr || run.doubles != nullptr) {
+        visit_values(run, [&](const auto* values) { visit(std::span(values, run.values())); });
+      }
+    }
+  }
+  /// Makes stored values doubles in `points`, which can be changed.
+  void take_values();
 
   /// Returns some of the patches, in S, to be used while the file is there. The library's results
   /// do not depend on which ones.

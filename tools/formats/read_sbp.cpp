@@ -22,21 +22,13 @@ PatchFile read_sbp(TextInput& input, const ReadOptions& /*options*/) try {
   file.name = input.name();
   const SbpIndex index = read_sbp_index(file.name, read);
   file.cut_error = index.moved_error;
-  if (input.stored_size() >= index.size) { // and otherwise there may be less than it promises
-    std::size_t values = 0;
-    for (const SbpBlock& block : index.blocks) {
-      values += block.bytes / block.number_bytes;
-    }
-    file.points.reserve(values);
-  }
-  std::vector<std::byte> bytes;
   for (const SbpBlock& block : index.blocks) {
-    bytes.resize(block.bytes);
-    if (read(bytes) != bytes.size()) {
+    const std::shared_ptr<std::byte[]> bytes = input.bytes().take(block.bytes);
+    if (bytes == nullptr) {
       refuse_cut_sbp(file.name, "its patches");
     }
-    expect_intact(file.name, index, block, bytes);
-    append_sbp_values(file, block, bytes);
+    expect_intact(file.name, index, block, {bytes.get(), block.bytes});
+    add_sbp_patches(file, block, bytes, block.count);
   }
   std::byte behind = {};
   if (read(std::span(&behind, 1)) != 0) {

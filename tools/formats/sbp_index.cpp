@@ -95,31 +95,32 @@ bool is_sound(const SbpBlock& block, std::uint64_t first_patch, std::uint64_t of
          is_degree(block.degree_u) && is_degree(block.degree_v) &&
          (block.weights == Weights::none || block.weights == Weights::cartesian ||
           block.weights == Weights::homogeneous) &&
-         (block.number_bytes == 4 || block.number_bytes == 8) &&
+         (block.number_bytes == 4 || block.number_bytes == 8) && offset % block.number_bytes == 0 &&
          (Count(block.count) * block.values_per_patch() * block.number_bytes).value() ==
              std::optional(block.bytes) &&
          block.bytes <= kMostSbpBlockBytes && (Count(offset) + block.bytes).value().has_value();
 }
 
-// Returns whether all values are finite, which is judged before they are wider. Bytes begin where
-// numbers may.
-template <typename Stored>
-bool append_as(PatchFile& file, std::span<const std::byte> bytes) {
-  const auto* values = reinterpret_cast<const Stored*>(bytes.data());
-  const std::size_t count = bytes.size() / sizeof(Stored);
-  std::vector<Stored> turned;
+// Returns whether all values can be what they are to be. They become the machine's own numbers.
+template <typename S>
+bool are_sound(S* values, std::size_t count, Weights weights) {
   if constexpr (std::endian::native != std::endian::little) {
     for (std::size_t k = 0; k < count; ++k) {
-      turned.push_back(load_little<Stored>(&bytes[k * sizeof(Stored)]));
+      values[k] = load_little<S>(reinterpret_cast<const std::byte*>(values + k));
     }
-    values = turned.data();
   }
-  file.points.insert(file.points.end(), values, values + count);
-  bool finite = true; // without a branch, so that a register of values takes one step
+  bool sound = true; // without a branch, so that a register of values takes one step
   for (std::size_t k = 0; k < count; ++k) {
-    finite &= std::abs(values[k]) <= std::numeric_limits<Stored>::max();
+    sound &= std::abs(values[k]) <= std::numeric_limits<S>::max();
   }
-  return finite;
+  for (std::size_t k = 3; weights != Weights::none && k < count; k += 4) {
+    const double w = values[k];
+    sound &= w > 0;
+    for (std::size_t c = k - 3; c < k; ++c) {
+      sound &= std::isfinite(weights == Weights::homogeneous ? values[c] / w : values[c] * w);
+    }
+  }
+  return sound;
 }
 
 } // namespace
@@ -137,6 +138,17 @@ void RunningCheck::add(std::span<const std::byte> bytes) {
       add_number(rest_.data());
       rest_bytes_ = 0;
     }
+  }
+  // Several numbers share a step, because every step waits for the one before.
+  constexpr std::size_t kNumbers = 8;
+  for (; bytes.size() >= kNumbers * rest_.size(); bytes = bytes.subspan(kNumbers * rest_.size())) {
+    SbpCheck step;
+    for (std::size_t k = 0; k < kNumbers; ++k) {
+      step.sum += load_little<std::uint64_t>(&bytes[k * rest_.size()]);
+      step.sum_of_sums += step.sum;
+    }
+    check_.sum_of_sums += kNumbers * check_.sum + step.sum_of_sums;
+    check_.sum += step.sum;
   }
   for (; bytes.size() >= rest_.size(); bytes = bytes.subspan(rest_.size())) {
     add_number(bytes.data());
@@ -248,31 +260,22 @@ void expect_intact(const std::string& name, const SbpIndex& index, const SbpBloc
   }
 }
 
-void append_sbp_values(PatchFile& file, const SbpBlock& block, std::span<const std::byte> bytes) {
-  const std::size_t before = file.points.size();
-  bool finite =
-      block.number_bytes == 4 ? append_as<float>(file, bytes) : append_as<double>(file, bytes);
-  const std::span<const double> values = std::span(file.points).subspan(before);
-  bool weighted = true;
-  for (std::size_t k = 3; block.weights != Weights::none && k < values.size(); k += 4) {
-    const double w = values[k];
-    const bool homogeneous = block.weights == Weights::homogeneous;
-    weighted &= w > 0;
-    for (std::size_t c = k - 3; c < k; ++c) {
-      finite &= std::isfinite(homogeneous ? values[c] / w : values[c] * w);
+void add_sbp_patches(PatchFile& file, const SbpBlock& block,
+                     const std::shared_ptr<std::byte[]>& bytes, std::size_t count) {
+  const auto add = [&](auto* values) {
+    if (!are_sound(values, count * block.values_per_patch(), block.weights)) {
+      bad_input(file.name +
+                ": expected finite coordinates and weights above 0, found others in patches " +
+                std::to_string(block.first_patch) + " to " +
+                std::to_string(block.first_patch + block.count - 1));
     }
-  }
-  if (!finite || !weighted) {
-    bad_input(file.name +
-              ": expected finite coordinates and weights above 0, found others in patches " +
-              std::to_string(block.first_patch) + " to " +
-              std::to_string(block.first_patch + block.count - 1));
-  }
-  const std::size_t count = bytes.size() / block.number_bytes / block.values_per_patch();
-  const std::size_t columns = block.degree_u + 1;
-  const std::size_t rows = block.degree_v + 1;
-  file.close_mesh(static_cast<int>(block.degree_u), static_cast<int>(block.degree_v), block.weights,
-                  {columns, columns, 1}, {count * rows, rows, count});
+    file.close_stored(
+        {static_cast<int>(block.degree_u), static_cast<int>(block.degree_v), block.weights}, count,
+        values);
+  };
+  block.number_bytes == 4 ? add(reinterpret_cast<float*>(bytes.get()))
+                          : add(reinterpret_cast<double*>(bytes.get()));
+  file.memory.push_back(bytes);
 }
 
 } // namespace simdbezier::tools

@@ -81,9 +81,10 @@ inline constexpr std::size_t kMostSbpBlockBytes = std::size_t{1} << 26;
 template <typename Read>
 [[nodiscard]] SbpIndex read_sbp_index(const std::string& name, const Read& read);
 
-/// Adds patches of a block to a file, and closes them as one mesh. `bytes` are whole patches of it.
+/// Adds some patches of a block to a file, as one mesh, whose memory `bytes` become.
 /// Throws Failure that names the block where a number cannot be a coordinate or weight.
-void append_sbp_values(PatchFile& file, const SbpBlock& block, std::span<const std::byte> bytes);
+void add_sbp_patches(PatchFile& file, const SbpBlock& block,
+                     const std::shared_ptr<std::byte[]>& bytes, std::size_t count);
 /// Throws Failure that names the block where its bytes are not those that were written.
 void expect_intact(const std::string& name, const SbpIndex& index, const SbpBlock& block,
                    std::span<const std::byte> bytes);

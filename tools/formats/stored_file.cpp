@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <tools/process/failure.hpp>
@@ -34,6 +35,26 @@ public:
     }
     return read;
   }
+  // The whole file is mapped, which takes address space only. Changes stay in memory.
+  [[nodiscard]] std::shared_ptr<std::byte[]> map(std::size_t size) override {
+    const std::size_t all = this->size();
+    const off_t at = all > 0 ? ftello(file_.get()) : -1;
+    if (at < 0 || all < size || static_cast<std::size_t>(at) > all - size) {
+      return nullptr;
+    }
+    if (map_ == nullptr) {
+      void* const map = mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE,
+                             fileno(file_.get()), 0);
+      if (map == MAP_FAILED) {
+        return nullptr;
+      }
+      map_.reset(static_cast<std::byte*>(map), [all](std::byte* m) { munmap(m, all); });
+    }
+    if (fseeko(file_.get(), static_cast<off_t>(size), SEEK_CUR) != 0) {
+      return nullptr;
+    }
+    return {map_, map_.get() + at};
+  }
   [[nodiscard]] std::uint64_t size() const override {
     struct stat status = {};
     const bool known = fstat(fileno(file_.get()), &status) == 0 && S_ISREG(status.st_mode);
@@ -42,6 +63,7 @@ public:
 
 private:
   std::unique_ptr<std::FILE, Close> file_;
+  std::shared_ptr<std::byte[]> map_;
 };
 
 } // namespace

@@ -52,7 +52,9 @@ PatchSource::PatchSource(PatchFile file)
     block.high = box.high;
   }
   find_box();
-  SbpCheck check = check_of(std::as_bytes(std::span(whole_.points)));
+  RunningCheck values;
+  whole_.visit_all_values([&](const auto some) { values.add(std::as_bytes(some)); });
+  SbpCheck check = values.value();
   for (const PatchRun& run : whole_.runs) {
     const std::uint64_t shape[] = {run.count, static_cast<std::uint64_t>(run.degree_u),
                                    static_cast<std::uint64_t>(run.degree_v),
@@ -104,12 +106,13 @@ void PatchSource::find_box() {
   }
 }
 
-std::vector<std::byte> PatchSource::bytes_of(const SbpBlock& block) const {
-  std::vector<std::byte> bytes(block.bytes);
-  if (read_at(file_.number(), block.offset, bytes, name_) != bytes.size()) {
+std::shared_ptr<std::byte[]> PatchSource::bytes_of(const SbpBlock& block) const {
+  std::shared_ptr<std::byte[]> bytes(new std::byte[block.bytes]);
+  const std::span<std::byte> all(bytes.get(), block.bytes);
+  if (read_at(file_.number(), block.offset, all, name_) != all.size()) {
     refuse_cut_sbp(name_, "its patches");
   }
-  expect_intact(name_, index_, block, bytes);
+  expect_intact(name_, index_, block, all);
   return bytes;
 }
 
@@ -132,18 +135,21 @@ PatchFile PatchSource::read(std::span<const std::uint32_t> numbers) const {
     const auto after = std::ranges::upper_bound(index_.blocks, std::uint64_t{numbers[k]}, {},
                                                 &SbpBlock::first_patch);
     const SbpBlock& block = *std::prev(after);
-    const std::vector<std::byte> bytes = bytes_of(block);
-    const std::size_t each = block.bytes / block.count;
+    std::shared_ptr<std::byte[]> bytes = bytes_of(block);
+    const std::size_t begin = k;
     while (k < numbers.size() && numbers[k] < block.first_patch + block.count) {
-      const std::size_t begin = k;
-      do {
-        ++k;
-      } while (k < numbers.size() && numbers[k] == numbers[k - 1] + 1 &&
-               numbers[k] < block.first_patch + block.count);
-      append_sbp_values(file, block,
-                        std::span(bytes).subspan((numbers[begin] - block.first_patch) * each,
-                                                 (k - begin) * each));
+      ++k;
     }
+    if (k - begin < block.count) { // the others need not stay in memory
+      const std::size_t each = block.bytes / block.count;
+      const std::shared_ptr<std::byte[]> all = std::move(bytes);
+      bytes.reset(new std::byte[(k - begin) * each]);
+      for (std::size_t n = begin; n < k; ++n) {
+        std::memcpy(&bytes[(n - begin) * each], &all[(numbers[n] - block.first_patch) * each],
+                    each);
+      }
+    }
+    add_sbp_patches(file, block, bytes, k - begin);
   }
   return file;
 }

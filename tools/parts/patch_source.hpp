@@ -43,7 +43,7 @@ public:
 private:
   PatchSource() = default;
   void find_box();
-  [[nodiscard]] std::vector<std::byte> bytes_of(const SbpBlock& block) const;
+  [[nodiscard]] std::shared_ptr<std::byte[]> bytes_of(const SbpBlock& block) const;
 
   std::string name_;
   std::size_t patches_ = 0;

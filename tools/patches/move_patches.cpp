@@ -38,6 +38,7 @@ std::array<double, 3> own_origin(const MeshBox& box) {
 }
 
 void move_patches(PatchFile& file, const std::array<double, 3>& origin) {
+  file.take_values();
   double rounded = 0;
   const auto move = [&](std::size_t first, std::size_t count, const PatchRun& run) {
     for (std::size_t k = 0; k < count; ++k) {

@@ -19,7 +19,7 @@ struct WrittenPatch {
   const PatchFile& file;
   const PatchRun& run;
   std::uint32_t number;
-  [[nodiscard]] std::span<const double> point(std::size_t i, std::size_t j) const {
+  [[nodiscard]] std::vector<double> point(std::size_t i, std::size_t j) const {
     return file.point(number, j * (static_cast<std::size_t>(run.degree_u) + 1) + i);
   }
 };

@@ -67,9 +67,12 @@ void for_blocks(const PatchFile& file, std::span<const std::uint32_t> order,
 } // namespace
 
 void write_sbp(const PatchFile& file, std::span<const std::uint32_t> order, OutputFile& out) {
-  const bool floats = std::ranges::all_of(file.points, [](double value) {
-    return std::abs(value) <= std::numeric_limits<float>::max() &&
-           static_cast<double>(static_cast<float>(value)) == value;
+  bool floats = true;
+  file.visit_all_values([&](const auto values) {
+    floats = floats && std::ranges::all_of(values, [](double value) {
+               return std::abs(value) <= std::numeric_limits<float>::max() &&
+                      static_cast<double>(static_cast<float>(value)) == value;
+             });
   });
   SbpIndex index;
   index.patches = order.size();

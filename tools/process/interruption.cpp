@@ -42,7 +42,7 @@ void clean_up() noexcept {
 
 extern "C" void clean_up_at_exit() { clean_up(); }
 
-extern "C" void on_signal(int number) {
+extern "C" void on_signal(int number, siginfo_t* info, void* /*context*/) {
   ending = true;
   if (creating) {
     waiting_signal = number;
@@ -51,6 +51,13 @@ extern "C" void on_signal(int number) {
     }
   }
   clean_up();
+  if (number == SIGBUS && info != nullptr && info->si_code == BUS_ADRERR) {
+    constexpr std::string_view kMessage =
+        "simdbezier: expected an input that stays as it is, found "
+        "one that became shorter or unreadable meanwhile\n";
+    static_cast<void>(!write(STDERR_FILENO, kMessage.data(), kMessage.size()));
+    _exit(1);
+  }
   struct sigaction action = {};
   action.sa_handler = SIG_DFL;
   sigaction(number, &action, nullptr);
@@ -81,7 +88,8 @@ bool ends_by_default(int number) {
 void handle_interruptions() {
   std::atexit(clean_up_at_exit);
   struct sigaction action = {};
-  action.sa_handler = on_signal;
+  action.sa_sigaction = on_signal;
+  action.sa_flags = SA_SIGINFO;
   sigfillset(&action.sa_mask);
   for (int number = 1; number <= SIGRTMAX; ++number) {
     struct sigaction before = {};
@@ -126,7 +134,7 @@ void begin_creation() noexcept {
 void end_creation() noexcept {
   creating = false;
   if (const int number = waiting_signal.exchange(0)) {
-    on_signal(number);
+    on_signal(number, nullptr, nullptr);
   }
 }
 

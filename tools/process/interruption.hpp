@@ -9,7 +9,8 @@ namespace simdbezier::tools {
 
 /// From now on, exit() and each signal that would end the program remove what is registered below.
 /// Signals that were ignored stay ignored, and the program still ends by the signal that it got. A
-/// file that outgrows its limit is a failed write. main() calls this once.
+/// file that outgrows its limit is a failed write, and one that is cut while it is mapped is bad
+/// input. main() calls this once.
 void handle_interruptions();
 
 /// The number of files that can be registered at a time.

@@ -9,6 +9,7 @@
 
 #include <tools/formats/sbp_index.hpp>
 #include <tools/process/failure.hpp>
+#include <tools/process/interruption.hpp>
 
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/parts/part_models.hpp"
@@ -179,6 +180,50 @@ TEST(BinaryPatches, cut_or_longer_files_are_refused) {
   const std::string path = folder.write("cut.sbp", bytes.substr(0, bytes.size() - 1));
   expect_failure(run({"tessellate", path, "-o", folder.path("a.ply"), "--shard", "1/2"}), 1,
                  "bytes of binary patches, found");
+}
+
+// Where a file has floats before doubles, these do not stand where the machine's numbers do.
+TEST(BinaryPatches, numbers_stand_at_multiples_of_their_size) {
+  tools::SbpIndex index;
+  index.patches = 2;
+  index.data_offset = index.size = tools::kSbpAlignment;
+  for (const std::uint32_t number_bytes : {4U, 8U}) {
+    tools::SbpBlock& block = index.blocks.emplace_back();
+    block.first_patch = index.blocks.size() - 1;
+    block.count = 1;
+    block.degree_u = block.degree_v = 2; // 27 values
+    block.number_bytes = number_bytes;
+    block.offset = index.size;
+    block.bytes = 27 * number_bytes;
+    index.size += block.bytes;
+  }
+  std::string bytes(index.size, '\0');
+  const auto refused = [&] {
+    const std::vector<std::byte> head = tools::sbp_bytes(index);
+    std::memcpy(bytes.data(), head.data(), head.size());
+    return refusal("sbp", bytes);
+  };
+  EXPECT_NE(refused().find("contradicts itself"), std::string::npos);
+  std::swap(index.blocks[0].number_bytes, index.blocks[1].number_bytes);
+  std::swap(index.blocks[0].bytes, index.blocks[1].bytes);
+  index.blocks[1].offset = tools::kSbpAlignment + 27 * 8;
+  EXPECT_EQ(refused(), "");
+}
+
+// A file is mapped into memory, from which bytes vanish when somebody cuts it.
+TEST(BinaryPatches, that_are_cut_while_they_are_used_are_bad_input) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers report this signal themselves";
+#endif
+  const TemporaryFolder folder;
+  const std::string path = convert(folder, "builtin:teapot", "in.sbp");
+  const auto use = [&] {
+    tools::handle_interruptions();
+    const PatchFile file = read(path);
+    std::filesystem::resize_file(path, 0);
+    std::exit(file.point(31, 0).empty() ? 2 : 3);
+  };
+  EXPECT_EXIT(use(), ::testing::ExitedWithCode(1), "found one that became shorter");
 }
 
 // The three lines of docs/formats.md.

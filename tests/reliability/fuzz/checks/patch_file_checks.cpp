@@ -75,6 +75,9 @@ public:
                   run.stride == 4,
               "vertices of runs do not follow each other");
       vertices_ += mesh;
+    } else if (run.floats != nullptr || run.doubles != nullptr) {
+      require(run.stride == run.values_per_point() && file_.lines.empty(),
+              "stored points are not those of patches");
     } else {
       const bool has_lines = !file_.lines.empty(); // binary files have none
       require((!has_lines || run.first_point == named_ + points_) &&
@@ -113,15 +116,18 @@ void require_consistent(const PatchFile& file, PatchFormat format) {
     runs.require_next(run);
   }
   runs.require_end();
-  require(std::ranges::all_of(file.points, [](double value) { return std::isfinite(value); }),
-          "a value is not finite");
+  file.visit_all_values([](const auto values) {
+    require(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }),
+            "a value is not finite");
+  });
   require(std::ranges::find(file.lines, 0U) == file.lines.end(), "lines begin with 1");
   for (const PatchRun& run : file.runs) {
     const std::size_t all = run.u.points * run.v.points;
     for (std::size_t k = 0; run.rational() && k < all; ++k) {
       const std::size_t index = run.first_vertex ? file.vertices[*run.first_vertex + k] : k;
-      require(file.points[run.first_value + index * run.stride + 3] > 0,
-              "a weight is not positive");
+      file.visit_values(run, [&](const auto* values) {
+        require(values[index * run.stride + 3] > 0, "a weight is not positive");
+      });
     }
   }
 }
@@ -156,8 +162,8 @@ bool fits_bv(const PatchFile& file) {
   for (std::size_t p = 0; p < file.count; ++p) {
     const PatchRun& run = file.run_of(p);
     for (std::size_t k = 0; run.weights == Weights::cartesian && k < run.points_per_patch(); ++k) {
-      const std::span<const double> point = file.point(p, k);
-      for (const double coordinate : point.first(3)) {
+      const std::vector<double> point = file.point(p, k);
+      for (const double coordinate : std::span(point).first(3)) {
         if (!std::isfinite(coordinate / point[3])) {
           return false;
         }
@@ -190,7 +196,7 @@ bool is_corner(const PatchFile& file, std::size_t patch, bool u1, bool v1, const
   const PatchRun& run = file.run_of(patch);
   const auto row = static_cast<std::size_t>(run.degree_u);
   const std::size_t corner = (v1 ? run.points_per_patch() - row - 1 : 0) + (u1 ? row : 0);
-  const std::span<const double> point = file.point(patch, corner);
+  const std::vector<double> point = file.point(patch, corner);
   bool same = true;
   for (std::size_t c = 0; c < 3; ++c) {
     // The program rounds to T first.
