@@ -34,16 +34,16 @@ std::vector<bool> used_before(const MeshLayout& layout, SetRange own, std::uint3
 // patches, by what it lies on, and by how many vertices are before it there.
 constexpr unsigned kOffsetBits = 32;
 
-std::vector<std::uint64_t> name_vertices(const MeshLayout& layout, SetRange own) {
-  std::vector<PatchVertices> ghosts(own.first);
+std::vector<std::uint64_t> name_vertices_before(const MeshLayout& layout, std::size_t own) {
+  std::vector<PatchVertices> ghosts(own);
   for (std::size_t ghost = 0; ghost < ghosts.size(); ++ghost) {
     for (std::size_t k = 0; k < 4; ++k) {
       ghosts[ghost].corners[k] = std::uint64_t{8 * ghost + k} << kOffsetBits;
       ghosts[ghost].edges[k] = std::uint64_t{8 * ghost + 4 + k} << kOffsetBits;
     }
   }
-  std::vector<std::uint64_t> names(layout.first_vertex(own.first + own.count));
-  check(number_part(layout, own, 0, ghosts, names));
+  std::vector<std::uint64_t> names(layout.first_vertex(own));
+  check(number_part(layout, {own, 0}, 0, ghosts, names));
   return names;
 }
 
@@ -52,9 +52,10 @@ std::vector<std::uint64_t> name_vertices(const MeshLayout& layout, SetRange own)
 MeshLinks find_mesh_links(const MeshLayout& layout, SetRange own,
                           std::span<const std::uint32_t> numbers,
                           std::span<const ModelPart::Lent> lent) {
-  const std::vector<std::uint64_t> names = name_vertices(layout, own);
-  const auto first = static_cast<std::uint32_t>(layout.first_vertex(own.first));
-  const auto own_vertices = static_cast<std::uint32_t>(names.size() - first);
+  const std::vector<std::uint64_t> names = name_vertices_before(layout, own.first);
+  const auto first = static_cast<std::uint32_t>(names.size());
+  const auto own_vertices =
+      static_cast<std::uint32_t>(layout.first_vertex(own.first + own.count) - first);
   MeshLinks found;
   PartLinks& links = found.links;
   found.before.assign(first, kNoVertex);

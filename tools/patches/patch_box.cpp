@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include <tools/patches/pack_patches.hpp>
-
 namespace simdbezier::tools {
 
 namespace {
@@ -31,8 +29,9 @@ MeshBox box_of(const PatchFile& file, std::size_t first, std::size_t patches) {
   box.low.fill(kInfinity);
   box.high.fill(-kInfinity);
   const std::size_t end = first + std::min(patches, file.count - first);
-  for (; first < end; first += kBlockPatches) {
-    const PatchNets<double> block = file.nets<double>(first, std::min(kBlockPatches, end - first));
+  constexpr std::size_t kPatches = 256; // so few that a copy of their points is in the cache
+  for (; first < end; first += kPatches) {
+    const PatchNets<double> block = file.nets<double>(first, std::min(kPatches, end - first));
     for (const ControlNets<double>& nets : block.nets) {
       extend(nets, box);
     }
