@@ -168,7 +168,7 @@ TEST(Creases, of_the_cube_are_its_edges) {
   }
   // A layout that is split may be split anew.
   split(mesh, 20);
-  split(mesh, 3.2);
+  split(mesh, 183);
   EXPECT_EQ(mesh.layout.size().vertices, 98U);
 }
 
@@ -177,7 +177,7 @@ TEST(Creases, of_the_cube_are_its_edges) {
 TEST(Creases, in_a_corner_neighbours_join) {
   const MeshModel model = roof({{0, 0, 0}, {1, 0, 0}, {2, 0, 0.1}, {3, 0, 0.3}, {3.1, 0, 5}});
   EvaluatedMesh<double> mesh(model, 3, 4);
-  split(mesh, 0.3); // 0.1 and 0.1 radians are joined, 1.4 are not
+  split(mesh, 17); // 6 and 6 degrees are joined, 80 are not
   mesh.evaluate_all();
   std::map<Point, std::set<Point>> normals;
   for (std::size_t k = 0; k < mesh.position.size(); ++k) {
