@@ -18,7 +18,7 @@ struct RecordGroups {
   /// Calls f for each group. A loop, whose index is no constant, would keep addresses in memory.
   template <typename F>
   static SIMDBEZIER_INLINE void for_each(const F& f) {
-    for_each_index(f, std::make_index_sequence<kCount>{});
+    repeat<kCount>(f);
   }
 };
 

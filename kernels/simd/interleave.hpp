@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "kernels/simd/vector.hpp"
+#include "kernels/simd/quad_transpose.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -91,26 +91,11 @@ SIMDBEZIER_INLINE void interleave_group(const T* const* plane, std::size_t at, T
                                         std::ptrdiff_t stride) {
   constexpr std::size_t kN = kGroupLanes<T>;
   for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
-    Part128<T> record[kN];
-    if constexpr (kN == 4) {
-      Part128<T> p[4] = {};
-      for (std::size_t m = 0; m < kCount; ++m) {
-        p[m] = load_any<Part128<T>>(plane[m] + at + k);
-      }
-      const Part128<T> low01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5);
-      const Part128<T> high01 = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7);
-      const Part128<T> low23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5);
-      const Part128<T> high23 = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
-      record[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
-      record[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
-      record[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
-      record[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
-    } else {
-      const Part128<T> p = load_any<Part128<T>>(plane[0] + at + k);
-      const Part128<T> q = kCount == 2 ? load_any<Part128<T>>(plane[kCount - 1] + at + k) : p;
-      record[0] = __builtin_shufflevector(p, q, 0, 2);
-      record[1] = __builtin_shufflevector(p, q, 1, 3);
+    Part128<T> record[kN] = {};
+    for (std::size_t m = 0; m < kCount; ++m) {
+      record[m] = load_any<Part128<T>>(plane[m] + at + k);
     }
+    transpose_quads<T>(record);
     for (std::size_t r = 0; r < kN; ++r, to += stride) {
       // Nothing behind the last member: it may be the caller's.
       __builtin_memcpy(to, &record[r], kCount * sizeof(T));

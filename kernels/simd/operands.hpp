@@ -41,24 +41,4 @@ SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
   }
 }
 
-/// Returns a * *t + c, with *t in all lanes. Where the instruction set can, *t is never in a
-/// register, and the result takes the place of a: with two operands in registers nothing has to be
-/// copied.
-template <typename V>
-SIMDBEZIER_INLINE V madd_by(V a, const ScalarOf<V>* t, V c) {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (!kIsScalar<V>) {
-    typename V::register_type r = a;
-    const typename V::register_type addend = c;
-    if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
-      asm("vfmadd132ps %2%{1to16%}, %1, %0" : "+v"(r) : "v"(addend), "m"(*t));
-    } else {
-      asm("vfmadd132pd %2%{1to8%}, %1, %0" : "+v"(r) : "v"(addend), "m"(*t));
-    }
-    return V(r);
-  }
-#endif
-  return madd(a, broadcast<V>(*t), c);
-}
-
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -88,12 +88,6 @@ SIMDBEZIER_INLINE RegisterPair<V> vector_fma(RegisterPair<V> a, RegisterPair<V> 
 }
 
 template <typename V>
-SIMDBEZIER_INLINE RegisterPair<V> madd_by(RegisterPair<V> a, const ScalarOf<V>* t,
-                                          RegisterPair<V> c) {
-  return {madd_by(a.low, t, c.low), madd_by(a.high, t, c.high)};
-}
-
-template <typename V>
 class PairSelector<RegisterPair<V>> {
 public:
   SIMDBEZIER_INLINE PairSelector(TwiceMask<V> first, TwiceMask<V> second)

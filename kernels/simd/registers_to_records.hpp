@@ -7,68 +7,151 @@
 #include <utility>
 
 #include "kernels/simd/structures_across.hpp"
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-#include "kernels/simd/registers_to_records_512.hpp"
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
+#if defined(SIMDBEZIER_KERNELS_AVX2)
 #include "kernels/simd/registers_to_records_256.hpp"
 #endif
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if !defined(SIMDBEZIER_KERNELS_AVX512) && !defined(SIMDBEZIER_KERNELS_AVX2)
-/// Element e of x y z x y z … comes from plane e % 3 at e / 3. These are the indices of the two
-/// shuffles that make it.
-SIMDBEZIER_INLINE constexpr int from_xy(std::size_t e, std::size_t lanes) {
-  return static_cast<int>(e % 3 == 2 ? 0 : e / 3 + (e % 3) * lanes);
-}
-SIMDBEZIER_INLINE constexpr int with_z(std::size_t lane, std::size_t e, std::size_t lanes) {
-  return static_cast<int>(e % 3 == 2 ? e / 3 + lanes : lane);
+#if !defined(SIMDBEZIER_KERNELS_AVX2)
+// Shuffles of two registers across all lanes: 6, 18 and 38 of them where registers have 512 bits.
+// Members are joined in units (one member, pairs, fours), whose registers hold whole runs of
+// samples; the lines are then merged from those units of which they have a part.
+
+/// Values that are joined first.
+template <std::size_t kMembers>
+inline constexpr std::size_t kUnit = kMembers == 9   ? 4
+                                     : kMembers == 6 ? 2
+                                                     : 1;
+
+/// Says where the values of lines are among the sources: there are kUnit registers for each unit of
+/// members, one for a member that is left over.
+template <std::size_t kMembers, std::size_t kN>
+struct RecordLines {
+  static constexpr std::size_t kU = kUnit<kMembers>;
+
+  /// Returns the lane of `source` that lane `lane` of a line comes from, kN where it comes from
+  /// another.
+  static constexpr std::size_t place(std::size_t line, std::size_t source, std::size_t lane) {
+    const std::size_t e = line * kN + lane;
+    const std::size_t record = e / kMembers;
+    const std::size_t member = e % kMembers;
+    if (source >= kMembers / kU * kU) {
+      return member == source ? record : kN;
+    }
+    const std::size_t run = kN / kU; // samples
+    const bool here = member / kU == source / kU && record / run == source % kU;
+    return here ? record % run * kU + member % kU : kN;
+  }
+  static constexpr bool has(std::size_t line, std::size_t source) {
+    for (std::size_t lane = 0; lane < kN; ++lane) {
+      if (place(line, source, lane) < kN) {
+        return true;
+      }
+    }
+    return false;
+  }
+  /// Returns how many sources before this one the line has values of.
+  static constexpr std::size_t before(std::size_t line, std::size_t source) {
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < source; ++s) {
+      count += has(line, s) ? 1 : 0;
+    }
+    return count;
+  }
+  static constexpr std::size_t first(std::size_t line) {
+    std::size_t source = 0;
+    while (!has(line, source)) {
+      ++source;
+    }
+    return source;
+  }
+  /// Returns the index of the shuffle that adds `source` to a line. With the second source, values
+  /// of the first take their places, too.
+  static constexpr int index(std::size_t line, std::size_t source, std::size_t lane) {
+    const std::size_t own = place(line, source, lane);
+    if (own < kN) {
+      return static_cast<int>(kN + own);
+    }
+    const std::size_t other =
+        before(line, source) == 1 ? place(line, first(line), lane) : std::size_t{kN};
+    return static_cast<int>(other < kN ? other : lane);
+  }
+};
+
+template <std::size_t kMembers, std::size_t kLine, std::size_t kSource, typename Part,
+          std::size_t... kLane>
+SIMDBEZIER_INLINE void add_source(Part& line, Part source, std::index_sequence<kLane...>) {
+  using Lines = RecordLines<kMembers, sizeof...(kLane)>;
+  if constexpr (Lines::has(kLine, kSource)) {
+    if constexpr (Lines::before(kLine, kSource) == 0) {
+      line = source;
+    } else {
+      line = __builtin_shufflevector(line, source, Lines::index(kLine, kSource, kLane)...);
+    }
+  }
 }
 
-template <typename T, std::size_t kOut, std::size_t... kLane>
-SIMDBEZIER_INLINE LinePart<T> triple_part(LinePart<T> x, LinePart<T> y, LinePart<T> z,
-                                          std::index_sequence<kLane...>) {
-  constexpr std::size_t kN = kPartLanes<T>;
-  const LinePart<T> xy = __builtin_shufflevector(x, y, from_xy(kOut * kN + kLane, kN)...);
-  return __builtin_shufflevector(xy, z, with_z(kLane, kOut * kN + kLane, kN)...);
+template <std::size_t kLine, typename T, std::size_t kMembers, std::size_t... kSource>
+SIMDBEZIER_INLINE LinePart<T> merge_line(const LinePart<T> (&source)[kMembers],
+                                         std::index_sequence<kSource...>) {
+  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
+  LinePart<T> line;
+  (add_source<kMembers, kLine, kSource>(line, source[kSource], kLanes), ...);
+  return line;
+}
+
+/// Joins units of kWidth values of a and b in turn, from the lower or the upper half of them.
+template <std::size_t kWidth, std::size_t kHalf, typename Part, std::size_t... kLane>
+SIMDBEZIER_INLINE Part join_half(Part a, Part b, std::index_sequence<kLane...>) {
+  constexpr std::size_t kN = sizeof...(kLane);
+  return __builtin_shufflevector(a, b,
+                                 static_cast<int>(kHalf * kN / 2 + kLane / kWidth / 2 * kWidth +
+                                                  kLane % kWidth + kLane / kWidth % 2 * kN)...);
+}
+
+template <std::size_t kWidth, typename T>
+SIMDBEZIER_INLINE void join(LinePart<T> a, LinePart<T> b, LinePart<T>* joined) {
+  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
+  joined[0] = join_half<kWidth, 0>(a, b, kLanes);
+  joined[1] = join_half<kWidth, 1>(a, b, kLanes);
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void join_four(const LinePart<T>* p, LinePart<T>* joined) {
+  LinePart<T> pairs[4];
+  join<1, T>(p[0], p[1], pairs);
+  join<1, T>(p[2], p[3], pairs + 2);
+  join<2, T>(pairs[0], pairs[2], joined);
+  join<2, T>(pairs[1], pairs[3], joined + 2);
+}
+
+template <typename T, std::size_t kMembers, std::size_t... kLine>
+SIMDBEZIER_INLINE void merge_lines(const LinePart<T> (&source)[kMembers],
+                                   LinePart<T> (&line)[kMembers],
+                                   std::index_sequence<kLine...> all) {
+  ((line[kLine] = merge_line<kLine, T>(source, all)), ...);
 }
 
 /// Puts a part of each plane into packed records.
-template <typename T>
-SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[3], LinePart<T> (&line)[3]) {
-  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
-  line[0] = triple_part<T, 0>(p[0], p[1], p[2], kLanes);
-  line[1] = triple_part<T, 1>(p[0], p[1], p[2], kLanes);
-  line[2] = triple_part<T, 2>(p[0], p[1], p[2], kLanes);
-}
-
-/// Puts six planes into records: in pairs of members where parts have 128 bits, and by way of
-/// memory elsewhere.
-template <typename T>
-SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[6], LinePart<T> (&line)[6]) {
-  if constexpr (kPartBytes != 16) {
-    T values[6 * kPartLanes<T>];
-    for (std::size_t e = 0; e < 6 * kPartLanes<T>; ++e) {
-      values[e] = p[e % 6][e / 6];
-    }
-    __builtin_memcpy(&line, values, sizeof(values));
-  } else if constexpr (kGroupLanes<T> == 4) {
-    const auto put = [&line](std::size_t first, Part128<T> a, Part128<T> b, Part128<T> c) {
-      line[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-      line[first + 1] = __builtin_shufflevector(c, a, 0, 1, 6, 7);
-      line[first + 2] = __builtin_shufflevector(b, c, 2, 3, 6, 7);
-    };
-    put(0, __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5), // samples 0 and 1
-        __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
-        __builtin_shufflevector(p[4], p[5], 0, 4, 1, 5));
-    put(3, __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7), // samples 2 and 3
-        __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7),
-        __builtin_shufflevector(p[4], p[5], 2, 6, 3, 7));
+template <typename T, std::size_t kMembers>
+SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[kMembers],
+                                    LinePart<T> (&line)[kMembers]) {
+  constexpr auto kAll = std::make_index_sequence<kMembers>{};
+  if constexpr (kMembers == 3) {
+    merge_lines<T>(p, line, kAll);
+  } else if constexpr (kMembers == 6) {
+    LinePart<T> source[kMembers];
+    join<1, T>(p[0], p[1], source);
+    join<1, T>(p[2], p[3], source + 2);
+    join<1, T>(p[4], p[5], source + 4);
+    merge_lines<T>(source, line, kAll);
   } else {
-    for (std::size_t m = 0; m < 3; ++m) {
-      line[m] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 0, 2);
-      line[m + 3] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 1, 3);
-    }
+    LinePart<T> source[kMembers];
+    join_four<T>(p, source);
+    join_four<T>(p + 4, source + 4);
+    source[8] = p[8];
+    merge_lines<T>(source, line, kAll);
   }
 }
 #endif
@@ -132,24 +215,10 @@ SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[kMembers], T* to, bo
 template <typename V>
 SIMDBEZIER_INLINE void store_triples(const V value[3], ScalarOf<V>* to, bool streaming) {
   using T = ScalarOf<V>;
-#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
+  static_assert(sizeof(V) == kPartBytes);
   LinePart<T> part[3];
   __builtin_memcpy(&part, value, sizeof(part));
   store_records(part, to, streaming);
-#else
-  (void)streaming; // a register is less than a line
-  alignas(64) T plane[3][kLanes<V>];
-  for (std::size_t c = 0; c < 3; ++c) {
-    store_vector(plane[c], value[c]);
-  }
-  constexpr std::size_t kN = kPartLanes<T>;
-  for (std::size_t k = 0; k < kLanes<V>; k += kN, to += 3 * kN) {
-    const LinePart<T> part[3] = {load_any<LinePart<T>>(plane[0] + k),
-                                 load_any<LinePart<T>>(plane[1] + k),
-                                 load_any<LinePart<T>>(plane[2] + k)};
-    store_records<false>(part, to);
-  }
-#endif
 }
 
 // From memory ------------------------------------------------------------------------------------

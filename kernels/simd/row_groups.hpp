@@ -36,10 +36,8 @@ SIMDBEZIER_INLINE void store_lanes_from(float* to, vec<float> value, std::size_t
   } else if constexpr (kWidth == 8) {
     const auto mask = static_cast<__mmask8>((1U << n) - 1U);
     _mm256_mask_storeu_ps(to, mask, own_register(_mm512_extractf32x8_ps(value, kLane / 8)));
-  } else if constexpr (kWidth == 4) {
-    const auto mask = static_cast<__mmask8>((1U << n) - 1U);
-    _mm_mask_storeu_ps(to, mask, own_register(_mm512_extractf32x4_ps(value, kLane / 4)));
   } else {
+    static_assert(kWidth == 1);
     _mm_store_ss(to, _mm512_extractf32x4_ps(value, kLane / 4));
   }
 }
@@ -48,10 +46,8 @@ SIMDBEZIER_INLINE void store_lanes_from(double* to, vec<double> value, std::size
   if constexpr (kWidth == 4) {
     const auto mask = static_cast<__mmask8>((1U << n) - 1U);
     _mm256_mask_storeu_pd(to, mask, own_register(_mm512_extractf64x4_pd(value, kLane / 4)));
-  } else if constexpr (kWidth == 2) {
-    const auto mask = static_cast<__mmask8>((1U << n) - 1U);
-    _mm_mask_storeu_pd(to, mask, own_register(_mm512_extractf64x2_pd(value, kLane / 2)));
   } else {
+    static_assert(kWidth == 1);
     _mm_store_sd(to, _mm512_extractf64x2_pd(value, kLane / 2));
   }
 }
@@ -132,17 +128,6 @@ struct PortableRowGroups {
       if (rows > 1) {
         store_lanes_from<kColumns, kColumns>(to + step, value, columns);
       }
-    } else if constexpr (kRows == 4 && kColumns > 1) {
-      store_lanes_from<kColumns, 0>(to, value, columns);
-      if (rows > 1) {
-        store_lanes_from<kColumns, kColumns>(to + step, value, columns);
-      }
-      if (rows > 2) {
-        store_lanes_from<kColumns, 2 * kColumns>(to + 2 * step, value, columns);
-      }
-      if (rows > 3) {
-        store_lanes_from<kColumns, 3 * kColumns>(to + 3 * step, value, columns);
-      }
     } else {
       alignas(64) T lanes[kLanes<V>];
       store_vector(lanes, value);
@@ -208,18 +193,6 @@ struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
     return vec<double>(_mm512_permutevar_pd(_mm512_broadcast_f64x2(_mm_loadu_pd(values)), index));
   }
 };
-
-template <>
-struct RowGroups<4, vec<double>> : PortableRowGroups<4, vec<double>> {
-  static SIMDBEZIER_INLINE vec<double> repeat(const double* values) {
-    return vec<double>(_mm512_broadcast_f64x2(_mm_loadu_pd(values)));
-  }
-  static SIMDBEZIER_INLINE vec<double> spread(const double* values) {
-    const __m512i index = _mm512_setr_epi64(0, 0, 1, 1, 2, 2, 3, 3);
-    return vec<double>(
-        _mm512_permutexvar_pd(index, _mm512_castpd256_pd512(_mm256_loadu_pd(values))));
-  }
-};
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
 template <>
 struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
@@ -231,19 +204,6 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
     __builtin_memcpy(&both, values, sizeof(both));
     const __m256i index = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
     return vec<float>(_mm256_permutevar_ps(_mm256_castpd_ps(_mm256_set1_pd(both)), index));
-  }
-};
-
-template <>
-struct RowGroups<4, vec<float>> : PortableRowGroups<4, vec<float>> {
-  static SIMDBEZIER_INLINE vec<float> repeat(const float* values) {
-    return vec<float>(
-        _mm256_castpd_ps(_mm256_broadcast_sd(reinterpret_cast<const double*>(values))));
-  }
-  static SIMDBEZIER_INLINE vec<float> spread(const float* values) {
-    const __m256i index = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
-    return vec<float>(
-        _mm256_permutevar_ps(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(values)), index));
   }
 };
 

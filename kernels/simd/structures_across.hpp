@@ -94,39 +94,29 @@ SIMDBEZIER_INLINE V join_fours(const ScalarOf<V>* from, [[maybe_unused]] std::si
 
 // Arrays live in registers only where every index is a constant; loops that copy them go by way of
 // memory, in halves, which cannot be forwarded to loads of whole registers.
-template <typename F, std::size_t... k>
-SIMDBEZIER_INLINE void for_each_index(const F& f, std::index_sequence<k...>) {
-  (f(k), ...);
-}
 
 /// Loads values[k], lane p = from[p * stride + k], for k < kQuad.
 template <typename V>
 SIMDBEZIER_INLINE void load_across(const ScalarOf<V>* from, std::size_t stride, V* values) {
-  constexpr auto kAll = std::make_index_sequence<kQuad<V>>{};
   Bits<V> m[kQuad<V>];
-  for_each_index(
-      [&](std::size_t r)
-          SIMDBEZIER_INLINE_LAMBDA { m[r] = join_quads<V>(from + r * stride, kQuad<V> * stride); },
-      kAll);
+  repeat<kQuad<V>>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+    m[r] = join_quads<V>(from + r * stride, kQuad<V> * stride);
+  });
   transpose_quads<ScalarOf<V>>(m);
-  for_each_index([&](std::size_t k)
-                     SIMDBEZIER_INLINE_LAMBDA { values[k] = __builtin_bit_cast(V, m[k]); },
-                 kAll);
+  repeat<kQuad<V>>([&](std::size_t k)
+                       SIMDBEZIER_INLINE_LAMBDA { values[k] = __builtin_bit_cast(V, m[k]); });
 }
 
 /// Stores to[p * stride + k] = lane p of values[k], for k < kQuad.
 template <typename V>
 SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, std::size_t stride) {
-  constexpr auto kAll = std::make_index_sequence<kQuad<V>>{};
   Bits<V> m[kQuad<V>];
-  for_each_index([&](std::size_t k)
-                     SIMDBEZIER_INLINE_LAMBDA { m[k] = __builtin_bit_cast(Bits<V>, values[k]); },
-                 kAll);
+  repeat<kQuad<V>>([&](std::size_t k)
+                       SIMDBEZIER_INLINE_LAMBDA { m[k] = __builtin_bit_cast(Bits<V>, values[k]); });
   transpose_quads<ScalarOf<V>>(m);
-  for_each_index(
-      [&](std::size_t r)
-          SIMDBEZIER_INLINE_LAMBDA { part_quads<V>(m[r], to + r * stride, kQuad<V> * stride); },
-      kAll);
+  repeat<kQuad<V>>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+    part_quads<V>(m[r], to + r * stride, kQuad<V> * stride);
+  });
 }
 
 // Where a register is a line, a line of each structure takes three quarters of the shuffles and
