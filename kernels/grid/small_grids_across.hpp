@@ -107,9 +107,9 @@ struct ComponentAcross {
 
   SIMDBEZIER_PART ComponentAcross(const GridTask<T>& task, std::size_t patch, std::size_t c) {
     const Component<T> first(task, patch, c);
-    load(first.matrix, detail::kCoefficients, matrix);
-    load(first.edge, detail::kEdgeBlock, edge);
-    load(first.corner, detail::kEdgeBlock, corner);
+    load_values_across<kOrder * kOrder>(first.matrix, detail::kCoefficients, matrix);
+    load_values_across<kOrder * kEdges>(first.edge, detail::kEdgeBlock, edge);
+    load_values_across<kEdges>(first.corner, detail::kEdgeBlock, corner);
   }
 
   SIMDBEZIER_PART void column(V x, V q[kOrder]) const {
@@ -129,20 +129,6 @@ struct ComponentAcross {
   SIMDBEZIER_PART void edge_cubic(std::size_t number, V e[kOrder]) const {
     for (std::size_t p = 0; p < kOrder; ++p) {
       e[p] = edge[p * kEdges + number];
-    }
-  }
-
-private:
-  template <std::size_t kValues>
-  static SIMDBEZIER_PART void load(const T* from, std::size_t step, V (&values)[kValues]) {
-    if constexpr (kTurnsLines<V> && kValues % kLanes<V> == 0) {
-      repeat<kValues / kLanes<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-        load_lines_across(from + k * kLanes<V>, step, values + k * kLanes<V>);
-      });
-    } else {
-      repeat<kValues / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-        load_across(from + k * kQuad<V>, step, values + k * kQuad<V>);
-      });
     }
   }
 };

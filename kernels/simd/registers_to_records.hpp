@@ -175,7 +175,7 @@ SIMDBEZIER_INLINE void store_pieces(const LinePart<T> (&p)[9], T* to, std::index
                       __builtin_bit_cast(V, p[4]), __builtin_bit_cast(V, p[5]),
                       __builtin_bit_cast(V, p[6]), __builtin_bit_cast(V, p[7])};
   for (std::size_t m = 0; m < 8; m += kQuad<V>) {
-    store_across(value + m, to + m, 9);
+    store_across(value + m, to + m, std::size_t{9});
   }
   ((to[9 * k + 8] = p[8][k]), ...);
 }

@@ -15,12 +15,12 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename V>
 using Bits = typename VectorOf<ScalarOf<V>, kLanes<V> * sizeof(ScalarOf<V>)>::type;
 
-/// Loads 128 bits at from, from + step, …, side by side.
-template <typename V>
-SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, std::size_t step) {
+/// Loads 128 bits at from, from + step, …, side by side. Steps may be signed or not.
+template <typename V, typename Step>
+SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, Step step) {
   Bits<V> value;
 #if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
-  const auto piece = [&](std::size_t g)
+  const auto piece = [&](Step g)
                          SIMDBEZIER_INLINE_LAMBDA { return load_any<__m128>(from + g * step); };
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   __m512 bits = _mm512_castps128_ps512(piece(0));
@@ -34,7 +34,7 @@ SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, std::size_t step) 
 #else
   alignas(64) ScalarOf<V> lanes[kLanes<V>];
   for (std::size_t q = 0; q < kQuads<V>; ++q) {
-    __builtin_memcpy(lanes + q * kQuad<V>, from + q * step, 16);
+    __builtin_memcpy(lanes + q * kQuad<V>, from + static_cast<Step>(q) * step, 16);
   }
   __builtin_memcpy(&value, lanes, sizeof(value));
 #endif
@@ -42,8 +42,8 @@ SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, std::size_t step) 
 }
 
 /// Stores what join_quads() loads.
-template <typename V>
-SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, std::size_t step) {
+template <typename V, typename Step>
+SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, Step step) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   __m512 bits;
   __builtin_memcpy(&bits, &value, sizeof(bits));
@@ -60,7 +60,7 @@ SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, std::size_t st
   alignas(64) ScalarOf<V> lanes[kLanes<V>];
   __builtin_memcpy(lanes, &value, sizeof(value));
   for (std::size_t q = 0; q < kQuads<V>; ++q) {
-    __builtin_memcpy(to + q * step, lanes + q * kQuad<V>, 16);
+    __builtin_memcpy(to + static_cast<Step>(q) * step, lanes + q * kQuad<V>, 16);
   }
 #endif
 }
@@ -96,11 +96,11 @@ SIMDBEZIER_INLINE V join_fours(const ScalarOf<V>* from, [[maybe_unused]] std::si
 // memory, in halves, which cannot be forwarded to loads of whole registers.
 
 /// Loads values[k], lane p = from[p * stride + k], for k < kQuad.
-template <typename V>
-SIMDBEZIER_INLINE void load_across(const ScalarOf<V>* from, std::size_t stride, V* values) {
+template <typename V, typename Step>
+SIMDBEZIER_INLINE void load_across(const ScalarOf<V>* from, Step stride, V* values) {
   Bits<V> m[kQuad<V>];
   repeat<kQuad<V>>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
-    m[r] = join_quads<V>(from + r * stride, kQuad<V> * stride);
+    m[r] = join_quads<V>(from + static_cast<Step>(r) * stride, Step{kQuad<V>} * stride);
   });
   transpose_quads<ScalarOf<V>>(m);
   repeat<kQuad<V>>([&](std::size_t k)
@@ -108,14 +108,14 @@ SIMDBEZIER_INLINE void load_across(const ScalarOf<V>* from, std::size_t stride, 
 }
 
 /// Stores to[p * stride + k] = lane p of values[k], for k < kQuad.
-template <typename V>
-SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, std::size_t stride) {
+template <typename V, typename Step>
+SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, Step stride) {
   Bits<V> m[kQuad<V>];
   repeat<kQuad<V>>([&](std::size_t k)
                        SIMDBEZIER_INLINE_LAMBDA { m[k] = __builtin_bit_cast(Bits<V>, values[k]); });
   transpose_quads<ScalarOf<V>>(m);
   repeat<kQuad<V>>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
-    part_quads<V>(m[r], to + r * stride, kQuad<V> * stride);
+    part_quads<V>(m[r], to + static_cast<Step>(r) * stride, Step{kQuad<V>} * stride);
   });
 }
 
@@ -143,14 +143,15 @@ SIMDBEZIER_INLINE void transpose_pieces(B (&m)[4]) {
 }
 
 /// Loads values[k], lane p = from[p * stride + k], for all k of a line.
-template <typename V>
-SIMDBEZIER_INLINE void load_lines_across(const ScalarOf<V>* from, std::size_t stride, V* values) {
+template <typename V, typename Step>
+SIMDBEZIER_INLINE void load_lines_across(const ScalarOf<V>* from, Step stride, V* values) {
   constexpr std::size_t kQ = kQuad<V>;
   Bits<V> m[4][kQ];
   repeat<kQ>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
     Bits<V> line[4];
     repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-      line[k] = __builtin_bit_cast(Bits<V>, load_vector<V>(from + (r + k * kQ) * stride));
+      const V whole = load_vector<V>(from + static_cast<Step>(r + k * kQ) * stride);
+      line[k] = __builtin_bit_cast(Bits<V>, whole);
     });
     transpose_pieces(line);
     repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { m[k][r] = line[k]; });
@@ -164,8 +165,9 @@ SIMDBEZIER_INLINE void load_lines_across(const ScalarOf<V>* from, std::size_t st
 }
 
 /// Stores to[p * stride + k] = lane p of values[k], for all k of a line.
-template <typename V>
-SIMDBEZIER_INLINE void store_lines_across(const V* values, ScalarOf<V>* to, std::size_t stride) {
+template <typename V, typename Step>
+SIMDBEZIER_INLINE void store_lines_across(const V* values, ScalarOf<V>* to, Step stride,
+                                          bool streams = false) {
   constexpr std::size_t kQ = kQuad<V>;
   Bits<V> m[4][kQ];
   repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
@@ -178,7 +180,8 @@ SIMDBEZIER_INLINE void store_lines_across(const V* values, ScalarOf<V>* to, std:
     Bits<V> line[4] = {m[0][r], m[1][r], m[2][r], m[3][r]};
     transpose_pieces(line);
     repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-      store_vector(to + (r + k * kQ) * stride, __builtin_bit_cast(V, line[k]));
+      ScalarOf<V>* const place = to + static_cast<Step>(r + k * kQ) * stride;
+      store_line(place, __builtin_bit_cast(V, line[k]), streams);
     });
   });
 }
@@ -186,5 +189,35 @@ SIMDBEZIER_INLINE void store_lines_across(const V* values, ScalarOf<V>* to, std:
 template <typename V>
 inline constexpr bool kTurnsLines = false;
 #endif
+
+/// Loads values[k], lane p = from[p * stride + k], for kCount k.
+template <std::size_t kCount, typename V, typename Step>
+SIMDBEZIER_INLINE void load_values_across(const ScalarOf<V>* from, Step stride, V* values) {
+  if constexpr (kIsScalar<V>) {
+    repeat<kCount>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { values[k] = from[k]; });
+  } else if constexpr (kTurnsLines<V> && kCount % kLanes<V> == 0) {
+    repeat<kCount / kLanes<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      load_lines_across(from + k * kLanes<V>, stride, values + k * kLanes<V>);
+    });
+  } else {
+    repeat<kCount / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      load_across(from + k * kQuad<V>, stride, values + k * kQuad<V>);
+    });
+  }
+}
+/// Stores what load_values_across() loads. streams: rows that are lines go past the caches.
+template <std::size_t kCount, typename V, typename Step>
+SIMDBEZIER_INLINE void store_values_across(const V* values, ScalarOf<V>* to, Step stride,
+                                           [[maybe_unused]] bool streams = false) {
+  if constexpr (kIsScalar<V>) {
+    repeat<kCount>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { to[k] = values[k]; });
+  } else if constexpr (kTurnsLines<V> && kCount == kLanes<V>) {
+    store_lines_across(values, to, stride, streams);
+  } else {
+    repeat<kCount / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      store_across(values + k * kQuad<V>, to + k * kQuad<V>, stride);
+    });
+  }
+}
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
