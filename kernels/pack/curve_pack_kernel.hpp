@@ -1,22 +1,13 @@
 // Packing of curves: a group at a time, one curve a lane, with the formulas of patches' edges.
 #pragma once
 
-#include "kernels/pack/bicubic_pack_kernel.hpp"
-#include "kernels/pack/shape_pack_formulas.hpp"
+#include "kernels/pack/shape_pack_io.hpp"
 #include "kernels/pack/tangent_floor.hpp"
 #include "kernels/pack/zero_signs.hpp"
 #include "src/storage/one_point.hpp"
 #include "src/tables/curve_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-/// Squares of control values up to which nothing can overflow: a coefficient is at most 2^22 times
-/// its control values (C(15,k) 2^k), and with weights those are products of two such numbers.
-template <typename T>
-inline constexpr double kSafeCurveSquares = sizeof(T) == sizeof(float) ? 0x1p80 : 0x1p800;
-/// Weights that need no second look.
-template <typename T>
-inline constexpr double kSafeCurveWeight = sizeof(T) == sizeof(float) ? 0x1p-40 : 0x1p-400;
 
 /// One group of curves while it is packed.
 template <typename T, typename S>
@@ -26,32 +17,33 @@ class CurveGroup {
 public:
   explicit CurveGroup(const detail::CurvePackTask<T, S>& task)
       : task_(task), shape_(task.shape), order_(shape_.order()), curve_values_(shape_.values()),
-        components_(static_cast<std::size_t>(shape_.components)) {}
+        components_(static_cast<std::size_t>(shape_.components)), row_{shape_.degree, 0,
+                                                                       shape_.components,
+                                                                       shape_.rational},
+        reader_(nets_, row_, task.relative_to) {
+    nets_.points = task.curves.points;
+    nets_.patch_stride = task.curves.curve_stride;
+    nets_.point_stride = task.curves.point_stride;
+    nets_.component_stride = task.curves.component_stride;
+    nets_.weights = task.curves.weights;
+  }
 
   /// Packs `count` curves from the first on, 1 <= count <= kWideLanes; lanes behind them repeat the
   /// last one. Returns false where something may not be finite, or a weight not be positive.
   bool pack(std::size_t first, std::size_t count) {
     first_ = first;
     count_ = count;
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      const auto curve = static_cast<std::ptrdiff_t>(first + (p < count ? p : count - 1));
-      polygon_[p] = task_.curves.points + curve * task_.curves.curve_stride;
-    }
-    copy_control_points();
-    Wide squares(0.0);
-    MaskOf<Wide> positive = squares <= squares;
+    reader_.begin(first, count);
+    reader_.copy(count, task_.control_points + first * shape_.control_values());
+    ControlSizes<T> sizes;
     if (shape_.rational) {
-      for (std::size_t i = 0; i < order_; ++i) {
-        const Wide weight = value_at(i, components_);
-        weights_[i] = weight;
-        squares = squares + weight * weight;
-        positive = positive & (weight >= Wide(kSafeCurveWeight<T>));
-      }
+      reader_.read(components_, weights_);
+      sizes.add_weights(weights_, order_);
       pack_weights();
     }
     TangentFloor<T> floor(shape_, shape_.rational ? weights_ : nullptr);
     for (std::size_t c = 0; c < components_; ++c) {
-      squares = squares + pack_component(c, floor);
+      pack_component(c, floor, sizes);
     }
     put(task_.tangent_floor, 1, 0, floor.value());
     if (detail::is_even_odd(shape_.degree)) {
@@ -60,16 +52,10 @@ public:
     if (shape_.rational) {
       pack_collapsed();
     }
-    return all_of<Wide>(positive & (squares <= Wide(kSafeCurveSquares<T>)));
+    return sizes.are_safe();
   }
 
 private:
-  SIMDBEZIER_INLINE Wide value_at(std::size_t point, std::size_t channel) const {
-    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(point) * task_.curves.point_stride +
-                              static_cast<std::ptrdiff_t>(channel) * task_.curves.component_stride;
-    return load_each(polygon_, at);
-  }
-
   /// Stores a value, rounded, at place `at` of every curve's `stride` values; -0 becomes +0.
   SIMDBEZIER_INLINE void put(T* array, std::size_t stride, std::size_t at, Wide value) const {
     alignas(64) double lanes[kWideLanes];
@@ -79,44 +65,10 @@ private:
       *to = static_cast<T>(lanes[p]) + T(0);
     }
   }
-  /// Copies the control points as they were given.
-  void copy_control_points() const {
-    S* to = task_.control_points + first_ * shape_.control_values();
-    for (std::size_t p = 0; p < count_; ++p) {
-      for (std::size_t i = 0; i < order_; ++i) {
-        const S* const point =
-            polygon_[p] + static_cast<std::ptrdiff_t>(i) * task_.curves.point_stride;
-        for (std::size_t c = 0; c < shape_.channels(); ++c) {
-          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.curves.component_stride] + S(0);
-        }
-      }
-    }
-  }
   SIMDBEZIER_INLINE void put_value(std::size_t cell, std::size_t channel, std::size_t k,
                                    Wide value) const {
     put(task_.values, curve_values_,
         cell * shape_.cell_values() + channel * shape_.channel_values() + k, value);
-  }
-
-  /// Returns one component's control value, homogeneous where there are weights, and finds its
-  /// Cartesian one.
-  SIMDBEZIER_INLINE W read_value(std::size_t point, std::size_t component, Wide& cartesian) const {
-    const Wide value = value_at(point, component);
-    const Wide origin(component < 3 ? task_.relative_to[component] : 0.0);
-    if (!shape_.rational) {
-      const W moved = difference_of<W>(value, origin);
-      cartesian = to_wide(moved);
-      return moved;
-    }
-    const Wide weight = weights_[point];
-    if (task_.curves.weights == Weights::homogeneous) {
-      const W moved = difference_of<W>(carried<W>(value), product(carried<W>(origin), weight));
-      cartesian = divide(to_wide(moved), weight);
-      return moved;
-    }
-    const W moved = difference_of<W>(value, origin);
-    cartesian = to_wide(moved);
-    return product(moved, weight);
   }
 
   /// Forms the weights of both cells, which the components need.
@@ -148,19 +100,12 @@ private:
     }
   }
 
-  /// Packs one component. Returns the sum of squares of its control values.
-  Wide pack_component(std::size_t c, TangentFloor<T>& floor) {
+  void pack_component(std::size_t c, TangentFloor<T>& floor, ControlSizes<T>& sizes) {
     W control[detail::kMostOrder];
     Wide points[detail::kMostOrder];
-    Wide squares(0.0);
-    for (std::size_t i = 0; i < order_; ++i) {
-      control[i] = read_value(i, c, points[i]);
-      const Wide value = to_wide(control[i]);
-      squares = squares + value * value;
-      if (shape_.rational) {
-        squares = squares + points[i] * points[i];
-      }
-    }
+    reader_.read(c, points);
+    reader_.move(c, shape_.rational ? weights_ : nullptr, points, control);
+    sizes.add(control, points, order_);
     floor.add(points);
     const Wide outer[2] = {points[0], points[order_ - 1]};
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
@@ -179,13 +124,13 @@ private:
       }
       centre(values, 1, order_ - 1);
       if (shape_.origins) {
-        put_value(cell, c, shape_.origin_at(), split_origin(values, cell));
+        const W* const weights = shape_.rational ? cell_weights_[cell] : nullptr;
+        put_value(cell, c, shape_.origin_at(), split_origin<T>(values, weights, order_, 1));
       }
       for (std::size_t k = 0; k < order_; ++k) {
         put_value(cell, c, k, to_wide(values[k]));
       }
     }
-    return squares;
   }
 
   /// Keeps even parts from zero as zero_signs.hpp explains. Curves that it applies to have one
@@ -244,19 +189,6 @@ private:
     }
   }
 
-  /// Takes the point in the middle of a cell, as rounded to T, out of its coefficients.
-  SIMDBEZIER_INLINE Wide split_origin(W* values, std::size_t cell) const {
-    if (!shape_.rational) {
-      return take_origin<T>(values[0]);
-    }
-    const W* const w = cell_weights_[cell];
-    const Wide origin = rounded_to<T>(divide(to_wide(values[0]), to_wide(w[0])));
-    for (std::size_t k = 0; k < order_; ++k) {
-      values[k] = difference_of<W>(values[k], product(w[k], origin));
-    }
-    return origin;
-  }
-
   const detail::CurvePackTask<T, S>& task_;
   const detail::CurveShape shape_;
   std::size_t order_;
@@ -266,7 +198,9 @@ private:
   std::size_t components_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  const S* polygon_[kWideLanes];
+  const detail::NetShape row_; ///< the polygon's
+  ControlNets<S> nets_;
+  NetReader<T, S> reader_;
   Wide weights_[detail::kMostOrder];
   W cell_weights_[2][detail::kMostOrder]; ///< coefficients
   Wide end_weights_[2][2];

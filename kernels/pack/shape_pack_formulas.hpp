@@ -134,6 +134,21 @@ void halve(W* values, std::size_t step, std::size_t degree, std::size_t half) {
   }
 }
 
+/// Splits the origin of a polynomial of `count` coefficients off; of h/w it is h0/w0, and the
+/// numerator of h/w - origin is h - origin w. weights: null for polynomials.
+template <typename T, typename W>
+SIMDBEZIER_INLINE Wide split_origin(W* values, const W* weights, std::size_t count,
+                                    std::size_t step) {
+  if (weights == nullptr) {
+    return take_origin<T>(values[0]);
+  }
+  const Wide origin = rounded_to<T>(divide(to_wide(values[0]), to_wide(weights[0])));
+  for (std::size_t k = 0; k < count; ++k) {
+    values[k * step] = difference_of<W>(values[k * step], product(weights[k * step], origin));
+  }
+  return origin;
+}
+
 /// Replaces one channel's control values of a cell, [j][i], by its coefficients, [l][k], and forms
 /// those of its edges, [power][edge].
 template <typename W>

@@ -1,13 +1,47 @@
 // How packing reads nets of any shape and writes their blocks: registers of one value of as many
-// patches on one side, the caller's arrays and packed blocks on the other.
+// patches on one side, the caller's arrays and packed blocks on the other. Polygons of curves are
+// nets of one row.
 #pragma once
 
 #include "kernels/pack/bicubic_pack_kernel.hpp"
+#include "kernels/pack/shape_pack_formulas.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 inline constexpr std::size_t kMostPoints = kMostOrder * kMostOrder;
+
+/// Whether all control values of a group are of a size that cannot do harm: a coefficient is at
+/// most 2^43 times its control values (C(15,k) 2^k < 2^22 in each direction), sums on the way 2^30
+/// times, and with weights, control values are products of two such numbers.
+template <typename T>
+class ControlSizes {
+public:
+  void add_weights(const Wide* weights, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      squares_ = squares_ + weights[k] * weights[k];
+      positive_ = positive_ & (weights[k] >= Wide(kSafeWeight));
+    }
+  }
+  /// Adds one component: control values, and Cartesian points.
+  template <typename W>
+  void add(const W* values, const Wide* points, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const Wide value = to_wide(values[k]);
+      squares_ = squares_ + value * value + points[k] * points[k];
+    }
+  }
+  /// Returns false where something may not be finite, or a weight not be positive.
+  [[nodiscard]] bool are_safe() const {
+    return all_of<Wide>(positive_ & (squares_ <= Wide(kSafeSquares)));
+  }
+
+private:
+  static constexpr double kSafeSquares = sizeof(T) == sizeof(float) ? 0x1p80 : 0x1p800;
+  static constexpr double kSafeWeight = sizeof(T) == sizeof(float) ? 0x1p-40 : 0x1p-400;
+  Wide squares_ = Wide(0.0);
+  MaskOf<Wide> positive_ = squares_ <= squares_;
+};
 
 /// The nets of a group.
 template <typename T, typename S>
@@ -15,23 +49,25 @@ class NetReader {
 public:
   using W = CarriedIn<T, S>;
 
-  explicit NetReader(const detail::NetPackTask<T, S>& task)
-      : task_(task), order_u_(task.shape.order_u()), order_v_(task.shape.order_v()) {}
+  /// All of it has to outlive this. relative_to: of the first three components.
+  NetReader(const ControlNets<S>& nets, const detail::NetShape& shape, const double* relative_to)
+      : nets_(nets), shape_(shape), relative_to_(relative_to), order_u_(shape.order_u()),
+        order_v_(shape.order_v()) {}
 
   /// Begins with patches [first, first + count); lanes behind them repeat the last one.
   void begin(std::size_t first, std::size_t count) {
     for (std::size_t p = 0; p < kWideLanes; ++p) {
       const std::size_t patch = first + (p < count ? p : count - 1);
-      net_[p] = task_.nets.points + static_cast<std::ptrdiff_t>(patch) * task_.nets.patch_stride;
+      net_[p] = nets_.points + static_cast<std::ptrdiff_t>(patch) * nets_.patch_stride;
     }
   }
 
   /// Reads one channel of all points, [j][i], as it stands in the caller's memory.
   void read(std::size_t channel, Wide* values) const {
     for (std::size_t j = 0; j < order_v_; ++j) {
-      std::ptrdiff_t at = static_cast<std::ptrdiff_t>(channel) * task_.nets.component_stride +
-                          static_cast<std::ptrdiff_t>(j) * task_.nets.row_stride;
-      for (std::size_t i = 0; i < order_u_; ++i, at += task_.nets.point_stride) {
+      std::ptrdiff_t at = static_cast<std::ptrdiff_t>(channel) * nets_.component_stride +
+                          static_cast<std::ptrdiff_t>(j) * nets_.row_stride;
+      for (std::size_t i = 0; i < order_u_; ++i, at += nets_.point_stride) {
         *values++ = load_each(net_, at);
       }
     }
@@ -40,11 +76,11 @@ public:
   /// Copies all values of the first `count` patches, as they were given except for the sign of
   /// zeros.
   void copy(std::size_t count, S* to) const {
-    const ControlNets<S>& nets = task_.nets;
-    const std::size_t values = order_u_ * order_v_ * task_.shape.channels();
-    const auto channels = static_cast<std::ptrdiff_t>(task_.shape.channels());
-    const bool packed = nets.component_stride == 1 && nets.point_stride == channels &&
-                        nets.row_stride == static_cast<std::ptrdiff_t>(order_u_) * channels;
+    const std::size_t values = order_u_ * order_v_ * shape_.channels();
+    const auto channels = static_cast<std::ptrdiff_t>(shape_.channels());
+    const bool packed =
+        nets_.component_stride == 1 && nets_.point_stride == channels &&
+        (order_v_ == 1 || nets_.row_stride == static_cast<std::ptrdiff_t>(order_u_) * channels);
     for (std::size_t p = 0; p < count; ++p, to += values) {
       packed ? copy_packed(net_[p], values, to) : copy_strided(net_[p], to);
     }
@@ -53,14 +89,14 @@ public:
   /// Moves one component: `points` come as read() has them and become Cartesian and relative to the
   /// set's origin; `values` are the same, or times the weight where there are weights (else null).
   void move(std::size_t component, const Wide* weights, Wide* points, W* values) const {
-    const Wide origin(component < 3 ? task_.relative_to[component] : 0.0);
+    const Wide origin(component < 3 ? relative_to_[component] : 0.0);
     const std::size_t count = order_u_ * order_v_;
     if (weights == nullptr) {
       for (std::size_t k = 0; k < count; ++k) {
         values[k] = difference_of<W>(points[k], origin);
         points[k] = to_wide(values[k]);
       }
-    } else if (task_.nets.weights == Weights::homogeneous) {
+    } else if (nets_.weights == Weights::homogeneous) {
       for (std::size_t k = 0; k < count; ++k) {
         const W moved_by = product(carried<W>(origin), weights[k]);
         values[k] = difference_of<W>(carried<W>(points[k]), moved_by);
@@ -89,16 +125,18 @@ private:
   void copy_strided(const S* net, S* to) const {
     for (std::size_t j = 0; j < order_v_; ++j) {
       for (std::size_t i = 0; i < order_u_; ++i) {
-        const S* const point = net + static_cast<std::ptrdiff_t>(j) * task_.nets.row_stride +
-                               static_cast<std::ptrdiff_t>(i) * task_.nets.point_stride;
-        for (std::size_t c = 0; c < task_.shape.channels(); ++c) {
-          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.nets.component_stride] + S(0);
+        const S* const point = net + static_cast<std::ptrdiff_t>(j) * nets_.row_stride +
+                               static_cast<std::ptrdiff_t>(i) * nets_.point_stride;
+        for (std::size_t c = 0; c < shape_.channels(); ++c) {
+          *to++ = point[static_cast<std::ptrdiff_t>(c) * nets_.component_stride] + S(0);
         }
       }
     }
   }
 
-  const detail::NetPackTask<T, S>& task_;
+  const ControlNets<S>& nets_;
+  const detail::NetShape& shape_;
+  const double* relative_to_;
   std::size_t order_u_;
   std::size_t order_v_;
   const S* net_[kWideLanes] = {}; ///< every lane's first control point

@@ -15,15 +15,6 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kMostChannels;
 
-/// Squares of control values up to which nothing can overflow: a coefficient is at most 2^43 times
-/// its control values (C(15,k) 2^k < 2^22 in each direction), sums on the way 2^30 times, and with
-/// weights, control values are products of two such numbers.
-template <typename T>
-inline constexpr double kSafeShapeSquares = sizeof(T) == sizeof(float) ? 0x1p80 : 0x1p800;
-/// Weights that need no second look.
-template <typename T>
-inline constexpr double kSafeWeight = sizeof(T) == sizeof(float) ? 0x1p-40 : 0x1p-400;
-
 /// One group of nets while it is packed.
 template <typename T, typename S>
 class ShapeGroup {
@@ -32,7 +23,8 @@ public:
 
   explicit ShapeGroup(const detail::NetPackTask<T, S>& task)
       : task_(task), shape_(task.shape), order_u_(shape_.order_u()), order_v_(shape_.order_v()),
-        components_(static_cast<std::size_t>(shape_.components)), reader_(task), collapsed_(task) {}
+        components_(static_cast<std::size_t>(shape_.components)),
+        reader_(task.nets, shape_, task.relative_to), collapsed_(task) {}
 
   /// Packs `count` nets from the first on, 1 <= count <= kWideLanes. Returns false where something
   /// may not be finite, or a weight not be positive.
@@ -46,12 +38,13 @@ public:
     }
     collapsed_.find(first, count);
     PointSizes sizes(shape_, task_.origins != nullptr, weights_);
+    sizes.control.add_weights(weights_, shape_.rational ? shape_.points() : 0);
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
       pack_cell(cell, cell == 0 ? &sizes : nullptr);
     }
     collapsed_.pack();
     store_floors(sizes.floor);
-    return all_of<Wide>(sizes.positive & (sizes.squares <= Wide(kSafeShapeSquares<T>)));
+    return sizes.control.are_safe();
   }
 
 private:
@@ -63,26 +56,16 @@ private:
     reader_.move(c, shape_.rational ? weights_ : nullptr, points_, values_);
   }
 
-  /// What is asked of all control points: the normal floor, and whether all values are of a size
-  /// that cannot do harm.
+  /// What is asked of all control points: the normal floor, and their sizes.
   struct PointSizes {
     ShapeFloor<T> floor;
-    Wide squares = Wide(0.0);
-    MaskOf<Wide> positive = squares <= squares;
+    ControlSizes<T> control;
 
     PointSizes(const detail::NetShape& shape, bool origins, const Wide* weights)
-        : floor(shape, origins, weights) {
-      for (std::size_t k = 0; shape.rational && k < shape.points(); ++k) {
-        squares = squares + weights[k] * weights[k];
-        positive = positive & (weights[k] >= Wide(kSafeWeight<T>));
-      }
-    }
+        : floor(shape, origins, weights) {}
     /// Adds one component: control values, and Cartesian points.
     void add(const W* values, const Wide* points, std::size_t count) {
-      for (std::size_t k = 0; k < count; ++k) {
-        const Wide value = to_wide(values[k]);
-        squares = squares + value * value + points[k] * points[k];
-      }
+      control.add(values, points, count);
       floor.add(points);
     }
   };
@@ -210,28 +193,15 @@ private:
     }
   };
 
-  /// Splits the origin of a polynomial of `count` coefficients off; of h/w it is h0/w0, and the
-  /// numerator of h/w - origin is h - origin w.
-  Wide split_origin(W* values, const W* weights, std::size_t count, std::size_t step) const {
-    if (weights == nullptr) {
-      return take_origin<T>(values[0]);
-    }
-    const Wide origin = rounded_to<T>(divide(to_wide(values[0]), to_wide(weights[0])));
-    for (std::size_t k = 0; k < count; ++k) {
-      values[k * step] = difference_of<W>(values[k * step], product(weights[k * step], origin));
-    }
-    return origin;
-  }
-
   void split_origins(std::size_t cell, std::size_t c) {
     Origins origins;
     const W* const weights = shape_.rational ? cell_weights_ : nullptr;
-    origins.at[0] = split_origin(values_, weights, shape_.points(), 1);
+    origins.at[0] = split_origin<T>(values_, weights, shape_.points(), 1);
     const std::size_t powers = shape_.edge_powers();
     for (std::size_t e = 0; powers > 0 && e < detail::kEdges; ++e) {
       const W* const edge = shape_.rational ? edge_weights_ + e : nullptr;
       origins.at[detail::kEdgeOriginsAt + e] =
-          split_origin(edges_ + e, edge, powers, detail::kEdges);
+          split_origin<T>(edges_ + e, edge, powers, detail::kEdges);
     }
     for (std::size_t side = 0; side < 2 && weights != nullptr; ++side) {
       origins.at[detail::kRelativeOriginsAt + side] = relative_origin(origins, cell, side);
