@@ -85,11 +85,11 @@ public:
     });
   }
   /// Streams them, wherever rows begin.
-  SIMDBEZIER_PART void put(const T* from, ValueStream<V> (&streams)[kStreams]) const {
+  SIMDBEZIER_PART void put(const T* from, LineStream<V, true> (&streams)[kStreams]) const {
     Lines lines;
     evaluate(from, lines);
     repeat<kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
-      streams[s].put(kRegisters * kLanes<V>, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      streams[s].put_row(kRegisters * kLanes<V>, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
         return __builtin_bit_cast(V, lines[s][k]);
       });
     });
@@ -177,7 +177,7 @@ SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shap
     }
   };
   if (streaming && whole > 0 && !rows.begin_lines()) {
-    ValueStream<vec<T>> streams[Lines::kStreams];
+    LineStream<vec<T>, true> streams[Lines::kStreams];
     repeat<Lines::kStreams>([&](std::size_t s)
                                 SIMDBEZIER_INLINE_LAMBDA { streams[s].begin(rows.first[s]); });
     for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, streams); });

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/simd/plane_streams.hpp"
+#include "kernels/simd/line_stream.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -71,7 +71,7 @@ struct UncertainRegisters {
 template <bool kOneRegister, typename T>
 SIMDBEZIER_KERNEL bool stream_patch(const GridTask<T>& task, const RowPiece<T>& piece,
                                     std::size_t patch, const ColumnPlanes<T>& behind,
-                                    PlaneStreams<vec<T>, 6>& streams,
+                                    LineStream<vec<T>, true, 6>& streams,
                                     UncertainRegisters& uncertain) {
   using V = vec<T>;
   const ColumnSplit<V> split(kOneRegister ? kLanes<V> + 1 : task.nu); // known, if so
@@ -79,7 +79,7 @@ SIMDBEZIER_KERNEL bool stream_patch(const GridTask<T>& task, const RowPiece<T>& 
   for (std::size_t k = 0; k < split.registers(); ++k) {
     columns[k].build(task, patch, k);
   }
-  PlaneStreams<V, 6> stream = streams; // in registers
+  LineStream<V, true, 6> stream = streams; // in registers
   unsigned any_doubts = 0;
   // samples(k): the k-th register of a row.
   const auto put_row = [&](std::size_t row, bool doubtful,
@@ -104,7 +104,7 @@ SIMDBEZIER_KERNEL bool stream_patch(const GridTask<T>& task, const RowPiece<T>& 
       stream.put_first(values, split.rest);
     }
     if (split.single) {
-      stream.put_values(behind.first + row, ColumnPlanes<T>::kPlane);
+      stream.put_value(behind.first + row, ColumnPlanes<T>::kPlane);
     }
     uncertain.row[row] = static_cast<std::uint16_t>(doubts);
     any_doubts |= doubts;
@@ -188,7 +188,7 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
   const auto stream =
       split.single && split.whole_registers() == 1 ? stream_patch<true, T> : stream_patch<false, T>;
   T* first[6];
-  PlaneStreams<vec<T>, 6> streams;
+  LineStream<vec<T>, true, 6> streams;
   UncertainRegisters uncertain;
   bool begun = false;
   PagesAhead<T> pages(shared_task, piece);

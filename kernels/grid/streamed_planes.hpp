@@ -65,7 +65,7 @@ SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPi
   assume<Known::no_origins>(task);
   const std::size_t nu = task.nu;
   const bool goes_on = piece.rows() * nu == task.patch_step;
-  ValueStream<V> streams[3 * kPlanes];
+  LineStream<V, true> streams[3 * kPlanes];
   StreamedComponent<T, kPlanes> component;
   PagesAhead<T> pages(shared_task, piece);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
@@ -78,30 +78,30 @@ SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPi
     for (std::size_t c = 0; c < 3; ++c, given = given.next()) {
       component.build(task, piece, given);
       // row(k, y): the k-th register of the row at y.
-      const auto put_plane = [&](Output output, ValueStream<V>& kept, V Jet<V>::*member,
+      const auto put_plane = [&](Output output, LineStream<V, true>& kept, V Jet<V>::*member,
                                  const auto& row) SIMDBEZIER_INLINE_LAMBDA {
-        ValueStream<V> stream = kept;
+        LineStream<V, true> stream = kept;
         if (!goes_on || patch == 0) {
           stream.begin(task.out[output_index(output)].component[c] + at);
         }
         if (piece.lead) {
-          stream.put(nu, [&](std::size_t k)
-                             SIMDBEZIER_INLINE_LAMBDA { return component.lead[k].*member; });
+          stream.put_row(nu, [&](std::size_t k)
+                                 SIMDBEZIER_INLINE_LAMBDA { return component.lead[k].*member; });
         }
         for (std::size_t j = 0; j < piece.middle.rows; ++j) {
           const auto y = piece.template point<1, V>(piece.middle.y + j);
-          stream.put(nu, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return row(k, y); });
+          stream.put_row(nu, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return row(k, y); });
         }
         if (piece.trail) {
-          stream.put(nu, [&](std::size_t k)
-                             SIMDBEZIER_INLINE_LAMBDA { return component.trail[k].*member; });
+          stream.put_row(nu, [&](std::size_t k)
+                                 SIMDBEZIER_INLINE_LAMBDA { return component.trail[k].*member; });
         }
         if (!goes_on || patch + 1 == task.patch_count) {
           stream.finish();
         }
         kept = stream;
       };
-      ValueStream<V>* const stream = streams + kPlanes * c;
+      LineStream<V, true>* const stream = streams + kPlanes * c;
       put_plane(Output::position, stream[0], &Jet<V>::p,
                 [&](std::size_t k, const RowPoint<V>& y)
                     SIMDBEZIER_INLINE_LAMBDA { return row_value(component.q[k], y); });

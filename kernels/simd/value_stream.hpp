@@ -7,13 +7,8 @@
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/line_stream.hpp"
-#include "kernels/simd/repeat.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-/// Registers of 32 bytes and more have it; see below.
-template <typename V>
-class ValueStream;
 
 #if defined(SIMDBEZIER_KERNELS_AVX2)
 /// For each number n of 32-bit lanes: where the lanes of a register come from that is turned by n,
@@ -55,26 +50,7 @@ private:
   __m256i from_;
   __m256 first_;
 };
-#elif defined(SIMDBEZIER_KERNELS_AVX512)
-/// Turns registers by a number of lanes, and joins them with the ones before.
-template <typename V>
-class Turn {
-  using Lanes = typename MaskOf<V>::register_type;
 
-public:
-  explicit SIMDBEZIER_INLINE Turn(std::size_t n)
-      : window_(kLanes<V> - n, ScalarOf<V>()), first_(static_cast<Lanes>((1U << n) - 1U)) {}
-  SIMDBEZIER_INLINE V of(V values) const { return window_.of(values, values); }
-  /// The first lanes of `kept`, and the others of `turned`.
-  SIMDBEZIER_INLINE V join(V kept, V turned) const { return select_where<V>(first_, kept, turned); }
-
-private:
-  LaneWindow window_;
-  MaskOf<V> first_;
-};
-#endif
-
-#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 /// Stores the lanes from number `first` on, which begin a stream: the others are somebody else's.
 template <typename V>
 SIMDBEZIER_INLINE void store_from(std::size_t first, ScalarOf<V>* to, V values) {
@@ -85,16 +61,28 @@ SIMDBEZIER_INLINE void store_from(std::size_t first, ScalarOf<V>* to, V values) 
   }
 }
 
-/// Rows are put one behind the other, as they are to lie from begin()'s address on. Once finish()
-/// has been called all of them are written, each value once, and nothing besides. It has values
-/// only between these two. A row at a time, in pairs of registers: LineStream, which puts register
-/// by register, takes half as many instructions again.
-template <typename V>
-class ValueStream {
+/// What simd/line_stream.hpp has for registers that are lines themselves.
+template <typename V, bool kPastCaches>
+class LineStream<V, kPastCaches, 1> {
+  static_assert(kPastCaches);
   using T = ScalarOf<V>;
   static constexpr std::size_t kL = kLanes<V>;
 
 public:
+  LineStream() = default; ///< has no values yet
+  explicit SIMDBEZIER_INLINE LineStream(T* to) { begin(to); }
+  /// Members are copied one by one, or they might be read in larger pieces than they were written
+  /// in, which waits for all streaming stores before.
+  SIMDBEZIER_INLINE LineStream(const LineStream& other) { *this = other; }
+  SIMDBEZIER_INLINE LineStream& operator=(const LineStream& other) {
+    to_ = other.to_;
+    filled_ = other.filled_;
+    foreign_ = other.foreign_;
+    kept_ = other.kept_;
+    return *this;
+  }
+  ~LineStream() = default;
+
   SIMDBEZIER_INLINE void begin(T* to) {
     filled_ = reinterpret_cast<std::uintptr_t>(to) / sizeof(T) % kL;
     foreign_ = filled_;
@@ -104,7 +92,7 @@ public:
   /// Puts `count` values, a register and more. value(k) is the k-th register of them; of the last
   /// one, as many lanes count as there are values.
   template <typename Value>
-  SIMDBEZIER_INLINE void put(std::size_t count, const Value& value) {
+  SIMDBEZIER_INLINE void put_row(std::size_t count, const Value& value) {
     const Turn<V> turn(filled_);
     // Finds what is stored next; `turned` is what stays for the register after it.
     const auto joined = [&](V values, V& turned) SIMDBEZIER_INLINE_LAMBDA {
@@ -152,44 +140,6 @@ public:
     }
   }
 
-protected:
-  static SIMDBEZIER_INLINE void stream(T* to, V values) {
-    store_any<true>(to, __builtin_bit_cast(LinePart<T>, values));
-  }
-
-  T* to_ = nullptr;         ///< the next register
-  std::size_t filled_ = 0;  ///< first lanes of it that are put already, or somebody else's
-  std::size_t foreign_ = 0; ///< those of them that are somebody else's
-  V kept_;                  ///< has the filled lanes
-};
-#endif
-
-#if defined(SIMDBEZIER_KERNELS_AVX2)
-/// What simd/line_stream.hpp has for registers that are lines themselves.
-template <typename V, bool kPastCaches>
-class LineStream : public ValueStream<V> {
-  static_assert(kPastCaches);
-  using T = ScalarOf<V>;
-  using ValueStream<V>::to_;
-  using ValueStream<V>::filled_;
-  using ValueStream<V>::foreign_;
-  using ValueStream<V>::kept_;
-
-public:
-  LineStream() = default; ///< has no values yet
-  explicit SIMDBEZIER_INLINE LineStream(T* to) { this->begin(to); }
-  /// Members are copied one by one, or they might be read in larger pieces than they were written
-  /// in, which waits for all streaming stores before.
-  SIMDBEZIER_INLINE LineStream(const LineStream& other) : ValueStream<V>() { *this = other; }
-  SIMDBEZIER_INLINE LineStream& operator=(const LineStream& other) {
-    to_ = other.to_;
-    filled_ = other.filled_;
-    foreign_ = other.foreign_;
-    kept_ = other.kept_;
-    return *this;
-  }
-  ~LineStream() = default;
-
   SIMDBEZIER_INLINE void put(V values) {
     const Turn<V> turn(filled_);
     const V turned = turn.of(values);
@@ -224,17 +174,25 @@ public:
   }
 
 private:
+  static SIMDBEZIER_INLINE void stream(T* to, V values) {
+    store_any<true>(to, __builtin_bit_cast(LinePart<T>, values));
+  }
   /// Stores a register, behind which come lanes of `next`.
   SIMDBEZIER_INLINE void end_register(V values, V next) {
     if (foreign_ > 0) [[unlikely]] {
       store_from(foreign_, to_, values);
       foreign_ = 0;
     } else {
-      this->stream(to_, values);
+      stream(to_, values);
     }
     kept_ = next;
     to_ += kLanes<V>;
   }
+
+  T* to_ = nullptr;         ///< the next register
+  std::size_t filled_ = 0;  ///< first lanes of it that are put already, or somebody else's
+  std::size_t foreign_ = 0; ///< those of them that are somebody else's
+  V kept_;                  ///< has the filled lanes
 };
 #endif
 
