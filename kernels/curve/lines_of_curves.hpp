@@ -102,7 +102,7 @@ private:
                                    [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return power[k]; })
                          .value;
     const V ends = join_fours<kCurves, V>(values + 2, stride_);
-    return select_ends(x, broadcast_in_four<2>(ends), broadcast_in_four<3>(ends), inside);
+    return select_ends(x, broadcast_in_groups<4, 2>(ends), broadcast_in_groups<4, 3>(ends), inside);
   }
 
   std::size_t n_;

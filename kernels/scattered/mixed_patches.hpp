@@ -67,7 +67,7 @@ SIMDBEZIER_PART void evaluate_group(const ScalarOf<V>* coefficients, const std::
                                     V all_x, Polynomials<kOutputs, V> q[3]) {
   using T = ScalarOf<V>;
   constexpr std::size_t kParts = kOrder / kQuad<V>; // of a row of powers of Y
-  const V x = lane_broadcast<kGroup>(all_x);
+  const V x = broadcast_in_groups<kQuad<V>, kGroup>(all_x);
   const T* from[kQuads<V>];
   for (std::size_t lane = 0; lane < kQuads<V>; ++lane) {
     from[lane] =

@@ -14,6 +14,9 @@ template <typename T, std::size_t kBytes>
 struct VectorOf {
   typedef T type __attribute__((vector_size(kBytes)));
 };
+/// A register as the compilers' own vector type, whose shuffles are portable.
+template <typename V>
+using Bits = typename VectorOf<ScalarOf<V>, kLanes<V> * sizeof(ScalarOf<V>)>::type;
 /// Lines are moved in parts, or in 128 bits of it.
 template <typename T>
 using LinePart = typename VectorOf<T, kPartBytes>::type;

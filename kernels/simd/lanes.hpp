@@ -2,7 +2,7 @@
 // here where xsimd 8 has nothing (masked stores come with xsimd 14, portable permutes with 13).
 #pragma once
 
-#include "kernels/simd/vector.hpp"
+#include "kernels/simd/interleave.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -174,15 +174,7 @@ inline constexpr bool kLineWide = kLanes<V> * sizeof(ScalarOf<V>) == 64;
 /// streaming_fence().
 template <typename V>
 SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, V value) {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
-    _mm512_stream_ps(to, value);
-  } else {
-    _mm512_stream_pd(to, value);
-  }
-#else
-  store_vector(to, value);
-#endif
+  store_any<kLineWide<V>>(to, __builtin_bit_cast(Bits<V>, value));
 }
 
 /// Stores past the caches where a call streams, and through them elsewhere. Registers of less than

@@ -22,17 +22,6 @@ inline constexpr std::size_t kQuads = kLanes<V> / kQuad<V>;
 // 128-bit lanes from memory -----------------------------------------------------------------------
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-SIMDBEZIER_INLINE __m512 to_bits(vec<float> v) { return v; }
-SIMDBEZIER_INLINE __m512 to_bits(vec<double> v) { return _mm512_castpd_ps(v); }
-template <typename V>
-SIMDBEZIER_INLINE V from_bits(__m512 v) {
-  if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
-    return V(v);
-  } else {
-    return V(_mm512_castps_pd(v));
-  }
-}
-
 /// Loads two adjacent lanes of two places.
 template <typename T>
 SIMDBEZIER_INLINE __m512d two_halves(const T* low, const T* high) {
@@ -61,13 +50,9 @@ SIMDBEZIER_INLINE void load_three_quads(const float* first, std::size_t step, ve
 /// use the value, but not the loads before it, and spill all that those have brought.
 template <typename V>
 SIMDBEZIER_INLINE void compute_here(V& value) {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  __m512 bits = to_bits(value);
-  asm volatile("" : "+v"(bits));
-  value = from_bits<V>(bits);
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
   typename V::register_type bits = value;
-  asm volatile("" : "+x"(bits));
+  asm volatile("" : "+v"(bits));
   value = V(bits);
 #elif defined(SIMDBEZIER_KERNELS_NEON64)
   typename V::register_type bits = value;
@@ -87,19 +72,15 @@ SIMDBEZIER_INLINE void load_quads(const ScalarOf<V>* const from[kQuads<V>], V ch
     const std::size_t at = j * kQuad<V>;
     const __m512d a = two_halves(from[0] + at, from[1] + at);
     const __m512d b = two_halves(from[2] + at, from[3] + at);
-    chunk[j] = from_bits<V>(_mm512_castpd_ps(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)));
-    chunk[j + 1] = from_bits<V>(_mm512_castpd_ps(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)));
+    chunk[j] = __builtin_bit_cast(V, _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88));
+    chunk[j + 1] = __builtin_bit_cast(V, _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd));
   }
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
   for (std::size_t j = 0; j < 4; ++j) {
     const std::size_t at = j * kQuad<V>;
-    if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
-      chunk[j] = V(_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from[0] + at)),
-                                        _mm_loadu_ps(from[1] + at), 1));
-    } else {
-      chunk[j] = V(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[0] + at)),
-                                        _mm_loadu_pd(from[1] + at), 1));
-    }
+    const __m256 first = _mm256_castps128_ps256(load_any<__m128>(from[0] + at));
+    chunk[j] =
+        __builtin_bit_cast(V, _mm256_insertf128_ps(first, load_any<__m128>(from[1] + at), 1));
   }
 #else
   for (std::size_t j = 0; j < 4; ++j) {
@@ -114,43 +95,15 @@ SIMDBEZIER_INLINE void load_quads(const ScalarOf<V>* const from[kQuads<V>], V ch
 
 // Within 128-bit lanes ----------------------------------------------------------------------------
 
-/// Returns value k of each group of kGroup lanes, in all lanes of the group. This is for any
-/// instruction set, by way of memory.
+/// Returns value k of each group of kGroup lanes, in all lanes of the group.
 template <std::size_t kGroup, std::size_t k, typename V>
 SIMDBEZIER_INLINE V broadcast_in_groups(V v) {
-  alignas(64) ScalarOf<V> lanes[kLanes<V>];
-  store_vector(lanes, v);
-  for (std::size_t i = 0; i < kLanes<V>; ++i) {
-    lanes[i] = lanes[i / kGroup * kGroup + k];
+  const auto bits = __builtin_bit_cast(Bits<V>, v);
+  return [&]<std::size_t... lane>(std::index_sequence<lane...>) SIMDBEZIER_INLINE_LAMBDA {
+    constexpr auto from = [](std::size_t to) { return static_cast<int>(to / kGroup * kGroup + k); };
+    return __builtin_bit_cast(V, __builtin_shufflevector(bits, bits, from(lane)...));
   }
-  return load_vector<V>(lanes);
-}
-
-/// Returns value k of each lane, in all places of the lane.
-template <std::size_t k, typename V>
-SIMDBEZIER_INLINE V lane_broadcast(V v) {
-  [[maybe_unused]] constexpr bool kFloat = sizeof(ScalarOf<V>) == sizeof(float);
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (kFloat) {
-    return V(_mm512_maskz_permute_ps(0xffff, v, k * 0x55));
-  } else {
-    return V(_mm512_maskz_permute_pd(0xff, v, k * 0xff));
-  }
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-  if constexpr (kFloat) {
-    return V(_mm256_permute_ps(v, k * 0x55));
-  } else {
-    return V(_mm256_permute_pd(v, k * 0xf));
-  }
-#elif defined(SIMDBEZIER_KERNELS_NEON64)
-  if constexpr (kFloat) {
-    return V(vdupq_laneq_f32(v, k));
-  } else {
-    return V(vdupq_laneq_f64(v, k));
-  }
-#else
-  return broadcast_in_groups<kQuad<V>, k>(v);
-#endif
+  (std::make_index_sequence<kLanes<V>>());
 }
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -173,10 +126,9 @@ SIMDBEZIER_INLINE vec<float> zip_high_halves(vec<float> even, vec<float> odd) {
 /// Transposes the kQuad x kQuad values that kQuad registers hold in each lane.
 template <typename V>
 SIMDBEZIER_INLINE void lane_transpose(V r[kQuad<V>]) {
-  using B = typename VectorOf<ScalarOf<V>, sizeof(V)>::type;
-  B m[kQuad<V>];
+  Bits<V> m[kQuad<V>];
   for (std::size_t k = 0; k < kQuad<V>; ++k) {
-    m[k] = __builtin_bit_cast(B, r[k]);
+    m[k] = __builtin_bit_cast(Bits<V>, r[k]);
   }
   transpose_quads<ScalarOf<V>>(m);
   for (std::size_t k = 0; k < kQuad<V>; ++k) {
@@ -191,41 +143,10 @@ SIMDBEZIER_INLINE void lane_transpose(V r[kQuad<V>]) {
 template <typename V>
 SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* index,
                                  std::size_t step) {
-  [[maybe_unused]] constexpr bool kFloat = sizeof(ScalarOf<V>) == sizeof(float);
-  const auto at = [&](std::size_t i) __attribute__((always_inline)) {
-    return from[step * std::size_t{index[i]}];
-  };
-#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
-  if constexpr (kFloat) {
-    const auto four = [&](std::size_t i) __attribute__((always_inline)) {
-      return _mm_setr_ps(at(i), at(i + 1), at(i + 2), at(i + 3));
-    };
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-    return V(_mm512_maskz_insertf32x8(0xffff,
-                                      _mm512_castps256_ps512(_mm256_set_m128(four(4), four(0))),
-                                      _mm256_set_m128(four(12), four(8)), 1));
-#else
-    return V(_mm256_set_m128(four(4), four(0)));
-#endif
-  } else {
-    const auto two = [&](std::size_t i) __attribute__((always_inline)) {
-      return _mm_setr_pd(at(i), at(i + 1));
-    };
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-    return V(_mm512_maskz_insertf64x4(0xff,
-                                      _mm512_castpd256_pd512(_mm256_set_m128d(two(2), two(0))),
-                                      _mm256_set_m128d(two(6), two(4)), 1));
-#else
-    return V(_mm256_set_m128d(two(2), two(0)));
-#endif
+  return [&]<std::size_t... lane>(std::index_sequence<lane...>) SIMDBEZIER_INLINE_LAMBDA {
+    return __builtin_bit_cast(V, Bits<V>{from[step * std::size_t{index[lane]}]...});
   }
-#else
-  alignas(64) ScalarOf<V> lanes[kLanes<V>];
-  for (std::size_t i = 0; i < kLanes<V>; ++i) {
-    lanes[i] = at(i);
-  }
-  return load_vector<V>(lanes);
-#endif
+  (std::make_index_sequence<kLanes<V>>());
 }
 
 /// Whether kCount indices, a power of two, are all equal to `same`.

@@ -11,10 +11,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// A register as the compilers' own vector type, whose shuffles are portable.
-template <typename V>
-using Bits = typename VectorOf<ScalarOf<V>, kLanes<V> * sizeof(ScalarOf<V>)>::type;
-
 /// Loads 128 bits at from, from + step, …, side by side. Steps may be signed or not.
 template <typename V, typename Step>
 SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, Step step) {
