@@ -19,8 +19,14 @@ extern const detail::MeshTable<float> mesh_table_f32;
 extern const detail::MeshTable<double> mesh_table_f64;
 
 template <typename T>
-constexpr detail::KernelTable<T> make_table() {
+constexpr detail::KernelTable<T>
+make_table(const detail::ShapeTable<T>& shapes, const detail::CurveTable<T>& curves,
+           const detail::NetTable<T>& nets, const detail::MeshTable<T>& meshes) {
   detail::KernelTable<T> table{};
+  table.shapes = &shapes;
+  table.curves = &curves;
+  table.nets = &nets;
+  table.meshes = kCompact ? nullptr : &meshes;
   table.isa = Isa::SIMDBEZIER_ISA;
   table.lanes = kLanes<vec<T>>;
   table.compact = kCompact;
@@ -42,27 +48,11 @@ constexpr detail::KernelTable<T> make_table() {
   return table;
 }
 
-constexpr detail::KernelTable<float> make_table_f32() {
-  detail::KernelTable<float> table = make_table<float>();
-  table.shapes = &shape_table_f32;
-  table.curves = &curve_table_f32;
-  table.nets = &net_table_f32;
-  table.meshes = kCompact ? nullptr : &mesh_table_f32;
-  return table;
-}
-
-constexpr detail::KernelTable<double> make_table_f64() {
-  detail::KernelTable<double> table = make_table<double>();
-  table.shapes = &shape_table_f64;
-  table.curves = &curve_table_f64;
-  table.nets = &net_table_f64;
-  table.meshes = kCompact ? nullptr : &mesh_table_f64;
-  return table;
-}
-
 extern const detail::KernelTable<float> table_f32;
 extern const detail::KernelTable<double> table_f64;
-constinit const detail::KernelTable<float> table_f32 = make_table_f32();
-constinit const detail::KernelTable<double> table_f64 = make_table_f64();
+constinit const detail::KernelTable<float> table_f32 =
+    make_table(shape_table_f32, curve_table_f32, net_table_f32, mesh_table_f32);
+constinit const detail::KernelTable<double> table_f64 =
+    make_table(shape_table_f64, curve_table_f64, net_table_f64, mesh_table_f64);
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

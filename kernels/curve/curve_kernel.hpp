@@ -44,14 +44,10 @@ template <bool kRational, typename T>
 SIMDBEZIER_PART void sweep_joint(const CurveTask<T>& task) {
   const std::size_t depth = depth_of(task);
   if constexpr (kRational && !kCompact) {
-    if (depth == 0 && task.shape->degree == 1) {
-      return sweep_samples<2, false, true, 0>(task);
-    }
-    if (depth == 0 && task.shape->degree == 2) {
-      return sweep_samples<3, false, true, 0>(task);
-    }
-    if (depth == 0 && task.shape->degree == 3) {
-      return sweep_samples<4, false, true, 0>(task);
+    if (depth == 0 && task.shape->degree <= 3) {
+      return with_one_of<2, 3, 4>(task.shape->order(), [&]<std::size_t kOrder>() {
+        sweep_samples<kOrder, false, true, 0>(task);
+      });
     }
   }
   if constexpr (!kRational && !kCompact) {
@@ -73,20 +69,12 @@ template <std::size_t kDepth, typename T>
 SIMDBEZIER_PART void sweep_apart(const CurveTask<T>& task) {
   const int degree = task.shape->degree;
   if constexpr (kDepth == 0) {
-    switch (degree) {
-    case 1:
-      return sweep_components<2, false, 0>(task);
-    case 2:
-      return sweep_components<3, false, 0>(task);
-    case 3:
-      return sweep_components<4, false, 0>(task);
-    case 4:
-      return sweep_components<5, false, 0>(task);
-    case 5:
-      return sweep_components<6, false, 0>(task);
-    default:
+    if (degree > 5) {
       return sweep_components<0, true, 0>(task);
     }
+    return with_one_of<2, 3, 4, 5, 6>(task.shape->order(), [&]<std::size_t kOrder>() {
+      sweep_components<kOrder, false, 0>(task);
+    });
   }
   if (degree == 3) {
     return sweep_components<4, false, kDepth>(task);

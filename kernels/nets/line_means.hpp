@@ -37,18 +37,10 @@ SIMDBEZIER_INLINE V mean_at(const detail::MeanTask& task, std::size_t at) {
 /// is unrolled.
 template <typename Mean>
 SIMDBEZIER_INLINE void with_terms(std::size_t terms, const Mean& mean) {
-  switch (terms) {
-  case 1:
-    return mean.template operator()<1>();
-  case 2:
-    return mean.template operator()<2>();
-  case 3:
-    return mean.template operator()<3>();
-  case 4:
-    return mean.template operator()<4>();
-  default:
+  if (terms > 4) {
     return mean.template operator()<0>();
   }
+  with_one_of<1, 2, 3, 4>(terms, mean);
 }
 
 inline void mean_lines(const detail::MeanTask& task) {

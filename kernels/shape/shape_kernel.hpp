@@ -31,50 +31,32 @@ using AnyPlan = ShapePlan<kDepth, kRational, 0, 0, 0>;
 /// patches of degree 5 and more are too rare.
 template <std::size_t kDepth, bool kRational, std::size_t kComponents, typename Run>
 SIMDBEZIER_INLINE void with_order_v(const NetShape& shape, const Run& run) {
-  switch (shape.cells() == 1 ? shape.degree_v : 0) {
-  case 1:
-    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 2>>();
-  case 2:
-    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 3>>();
-  case 3:
-    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 4>>();
-  case 4:
-    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 5>>();
-  case 5:
-    if constexpr (!kRational) {
-      return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 6>>();
-    }
-    [[fallthrough]];
-  default:
+  const std::size_t order = shape.order_v();
+  if (shape.cells() != 1 || order > (kRational ? 5 : 6)) {
     return run.template operator()<AnyPlan<kDepth, kRational>>();
+  }
+  const auto run_known = [&]<std::size_t kV>() SIMDBEZIER_INLINE_LAMBDA {
+    run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, kV>>();
+  };
+  with_one_of<2, 3, 4, 5>(order, run_known);
+  if constexpr (!kRational) {
+    with_one_of<6>(order, run_known);
   }
 }
 
 /// Positions of common degrees, for which the compiler knows everything. Returns whether it ran.
 template <typename Run>
 SIMDBEZIER_INLINE bool with_common_degrees(const NetShape& shape, const Run& run) {
-  switch (shape.degree_u * 16 + shape.degree_v) {
-  case 0x11:
-    run.template operator()<ShapePlan<0, false, 3, 2, 2>>();
-    return true;
-  case 0x22:
-    run.template operator()<ShapePlan<0, false, 3, 3, 3>>();
-    return true;
-  case 0x44:
-    run.template operator()<ShapePlan<0, false, 3, 5, 5>>();
-    return true;
-  case 0x55:
-    run.template operator()<ShapePlan<0, false, 3, 6, 6>>();
-    return true;
-  case 0x31:
-    run.template operator()<ShapePlan<0, false, 3, 4, 2>>();
-    return true;
-  case 0x13:
-    run.template operator()<ShapePlan<0, false, 3, 2, 4>>();
-    return true;
-  default:
-    return false;
-  }
+  const auto try_orders = [&]<std::size_t kU, std::size_t kV>() SIMDBEZIER_INLINE_LAMBDA {
+    const bool same = shape.order_u() == kU && shape.order_v() == kV;
+    if (same) {
+      run.template operator()<ShapePlan<0, false, 3, kU, kV>>();
+    }
+    return same;
+  };
+  return try_orders.template operator()<2, 2>() || try_orders.template operator()<3, 3>() ||
+         try_orders.template operator()<5, 5>() || try_orders.template operator()<6, 6>() ||
+         try_orders.template operator()<4, 2>() || try_orders.template operator()<2, 4>();
 }
 
 /// Components that do not need each other go one after the other, which leaves registers for the
