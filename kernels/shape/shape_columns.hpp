@@ -5,7 +5,6 @@
 
 #include "kernels/shape/column_polynomials.hpp"
 #include "kernels/shape/shape_edges.hpp"
-#include "kernels/simd/two_tables.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -124,22 +123,21 @@ private:
     const T* const edges = low.edges + edges_at;
     const std::ptrdiff_t matrix_to_high = high.coefficients - low.coefficients;
     const std::ptrdiff_t edges_to_high = high.edges - low.edges;
-    const TwoTables<V> cells(columns_.low);
-    // Tables reach up to six values behind the last coefficient, where the edges stand, and four
-    // behind the last edge, where the corners do.
     const auto load = [&](const T* c, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
       if constexpr (kMixed) {
-        return cells.entry(c, c + matrix_to_high, i);
+        return select_where<V>(columns_.low, broadcast<V>(c[i]),
+                               broadcast<V>((c + matrix_to_high)[i]));
       } else {
         return broadcast<V>(c[i]);
       }
     };
     const auto replace = [&](Series<V>* s) SIMDBEZIER_INLINE_LAMBDA {
-      if constexpr (kMixed) { // two powers of an edge are a table
+      if constexpr (kMixed) {
         replace_each<kCount>(s, [&](V inside, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-          const T* const two = edges + i / 2 * 8;
-          return cells.replace(columns_.local.edges, inside, two, two + edges_to_high,
-                               i % 2 * 4 + detail::kEdgeU0);
+          const T* const pair = edges + i * 4 + detail::kEdgeU0;
+          const PairSelector<V>& selector = columns_.local.edges;
+          return select_where<V>(columns_.low, selector.replace(inside, pair),
+                                 selector.replace(inside, pair + edges_to_high));
         });
       } else if constexpr (P::kKnown) { // whose masks are in registers
         replace_each<kCount>(s, [&](V inside, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {

@@ -77,10 +77,6 @@ public:
     return vec<float>(_mm512_mask_permutevar_ps(inside, lanes_, pairs, index_));
   }
 
-  /// These are the lanes of either edge, and which of the pair each of them takes.
-  SIMDBEZIER_INLINE __mmask16 lanes() const { return lanes_; }
-  SIMDBEZIER_INLINE __m512i index() const { return index_; }
-
 private:
   __mmask16 lanes_;
   __m512i index_;
