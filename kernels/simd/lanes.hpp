@@ -2,6 +2,8 @@
 // here where xsimd 8 has nothing (masked stores come with xsimd 14, portable permutes with 13).
 #pragma once
 
+#include <utility>
+
 #include "kernels/simd/interleave.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -150,6 +152,16 @@ SIMDBEZIER_INLINE V load_vector(const ScalarOf<V>* from) {
   } else {
     return V::load_unaligned(from);
   }
+}
+
+/// Returns at(i) in lane i, put together in registers: a reload of what single stores have put
+/// together would wait for all of them.
+template <typename V, typename At>
+SIMDBEZIER_INLINE V from_lanes(const At& at) {
+  return [&]<std::size_t... i>(std::index_sequence<i...>) SIMDBEZIER_INLINE_LAMBDA {
+    return __builtin_bit_cast(V, Bits<V>{at(i)...});
+  }
+  (std::make_index_sequence<kLanes<V>>());
 }
 
 template <typename V>

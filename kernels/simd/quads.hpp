@@ -138,15 +138,12 @@ SIMDBEZIER_INLINE void lane_transpose(V r[kQuad<V>]) {
 
 // Indices -----------------------------------------------------------------------------------------
 
-/// Loads from[step * index[i]] to lane i, in registers: a reload of what single stores have put
-/// together would wait for all of them.
+/// Loads from[step * index[i]] to lane i.
 template <typename V>
 SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* index,
                                  std::size_t step) {
-  return [&]<std::size_t... lane>(std::index_sequence<lane...>) SIMDBEZIER_INLINE_LAMBDA {
-    return __builtin_bit_cast(V, Bits<V>{from[step * std::size_t{index[lane]}]...});
-  }
-  (std::make_index_sequence<kLanes<V>>());
+  return from_lanes<V>([&](std::size_t i)
+                           SIMDBEZIER_INLINE_LAMBDA { return from[step * index[i]]; });
 }
 
 /// Whether kCount indices, a power of two, are all equal to `same`.

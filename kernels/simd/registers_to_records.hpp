@@ -138,7 +138,14 @@ template <typename T, std::size_t kMembers>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[kMembers],
                                     LinePart<T> (&line)[kMembers]) {
   constexpr auto kAll = std::make_index_sequence<kMembers>{};
-  if constexpr (kMembers == 3) {
+  if constexpr (kMembers == 3 && kPartLanes<T> == 4) { // SSE2 shuffles two lanes of each at once
+    const LinePart<T> xy = __builtin_shufflevector(p[0], p[1], 0, 2, 4, 6);
+    const LinePart<T> yz = __builtin_shufflevector(p[1], p[2], 1, 3, 5, 7);
+    const LinePart<T> zx = __builtin_shufflevector(p[2], p[0], 0, 2, 5, 7);
+    line[0] = __builtin_shufflevector(xy, zx, 0, 2, 4, 6);
+    line[1] = __builtin_shufflevector(yz, xy, 0, 2, 5, 7);
+    line[2] = __builtin_shufflevector(zx, yz, 1, 3, 5, 7);
+  } else if constexpr (kMembers == 3) {
     merge_lines<T>(p, line, kAll);
   } else if constexpr (kMembers == 6) {
     LinePart<T> source[kMembers];

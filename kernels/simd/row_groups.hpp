@@ -84,7 +84,7 @@ SIMDBEZIER_INLINE void store_lanes_from(ScalarOf<V>* to, V value, std::size_t n)
 }
 #endif
 
-/// These row groups are for any instruction set, by way of memory.
+/// These row groups are for any instruction set.
 template <std::size_t kRows, typename V>
 struct PortableRowGroups {
   using T = ScalarOf<V>;
@@ -97,11 +97,8 @@ struct PortableRowGroups {
     } else if constexpr (kRows == kLanes<V>) {
       return load_vector<V>(values);
     } else {
-      alignas(64) T lanes[kLanes<V>];
-      for (std::size_t i = 0; i < kLanes<V>; ++i) {
-        lanes[i] = values[i / kColumns];
-      }
-      return load_vector<V>(lanes);
+      return from_lanes<V>([values](std::size_t i)
+                               SIMDBEZIER_INLINE_LAMBDA { return values[i / kColumns]; });
     }
   }
 
@@ -112,11 +109,8 @@ struct PortableRowGroups {
     } else if constexpr (kRows == kLanes<V>) {
       return broadcast<V>(*values);
     } else {
-      alignas(64) T lanes[kLanes<V>];
-      for (std::size_t i = 0; i < kLanes<V>; ++i) {
-        lanes[i] = values[i % kColumns];
-      }
-      return load_vector<V>(lanes);
+      return from_lanes<V>([values](std::size_t i)
+                               SIMDBEZIER_INLINE_LAMBDA { return values[i % kColumns]; });
     }
   }
 
