@@ -45,9 +45,8 @@ struct NormalSweep {
         status_step(the_status_step),
         extra(the_extra), component{
                               {the_task, the_patch, 0}, component[0].next(), component[1].next()} {
-    for (std::size_t c = 0; c < 3; ++c) {
-      columns[c].build(component[c], tile);
-    }
+    repeat<3>([&](std::size_t c)
+                  SIMDBEZIER_INLINE_LAMBDA { columns[c].build(component[c], tile); });
   }
 
   SIMDBEZIER_PART void interior(const T* y, RowPlace place, std::size_t rows, V floor) const {
@@ -77,9 +76,9 @@ struct NormalSweep {
   /// Evaluates the edge v = const number `edge`, or both where they share a register.
   SIMDBEZIER_PART NormalSamples<V> edge(std::size_t edge) const {
     NormalSamples<V> s;
-    for (std::size_t c = 0; c < 3; ++c) {
+    repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       s.jet[c] = columns[c].edge(component[c], tile, edge);
-    }
+    });
     s.cross();
     return s;
   }
