@@ -220,6 +220,35 @@ TEST(RateKernels, a_patch_at_fault_is_named) {
   }
 }
 
+/// Kernels see it first, in any component of a point inside, beside patches without fault.
+TEST(RateKernels, a_value_that_is_not_finite_is_named) {
+  constexpr std::size_t kBad = 5;
+  const Model<float> sound({3, 3, Weights::none});
+  Topology topology;
+  ASSERT_EQ(find_topology(sound.nets(), topology), Status::ok);
+  for (const float value : {std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
+    for (std::size_t component = 0; component < 3; ++component) {
+      Model<float> model = sound;
+      model.values()[48 * kBad + 3 * 5 + component] = value;
+      for (const Isa isa : available_isas()) {
+        SCOPED_TRACE(std::string(to_string(isa)) + ", component " + std::to_string(component));
+        RateOptions options;
+        options.tolerance = 0.01;
+        options.isa = isa;
+        Options run;
+        run.isa = isa;
+        Rated rated;
+        for (const RateReport& report :
+             {choose_rates(model.nets(), topology, options, rated.out()),
+              certify_rates(model.nets(), topology, {}, Rated().out(), run)}) {
+          EXPECT_EQ(report.status, Status::non_finite_input);
+          EXPECT_EQ(report.patch, kBad);
+        }
+      }
+    }
+  }
+}
+
 TEST(RateKernels, powers_of_two_scale_bounds) {
   for (const Kind& kind : kKinds) {
     SCOPED_TRACE(name_of(kind));
