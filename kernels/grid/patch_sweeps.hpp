@@ -2,8 +2,8 @@
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
+#include "kernels/fast/square_column.hpp"
 #include "kernels/grid/prefetch.hpp"
-#include "kernels/grid/square_column.hpp"
 #include "kernels/grid/tile_normals.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -2,8 +2,8 @@
 // a tile is as wide as the grid, in whole lines (simd/line_stream.hpp).
 #pragma once
 
+#include "kernels/fast/square_pieces.hpp"
 #include "kernels/grid/column_tile.hpp"
-#include "kernels/grid/square_pieces.hpp"
 #include "kernels/simd/line_stream.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -204,7 +204,7 @@ private:
       return line && (single || filled);
     }
     // Two registers are one tile, and of a line each the column behind them. Squares of more than
-    // half a line have code of their own there (kStreamsSquare of kernels/grid/streamed_lines.hpp),
+    // half a line have code of their own there (kStreamsSquare of kernels/fast/streamed_lines.hpp),
     // so that positions of 9 to 12 floats are streamed as well.
     const bool position = choice.outputs == kPosition;
     const bool square = plan.is_uniform_square() && watertight && nu * sizeof(T) > 32 && line;

@@ -1,7 +1,7 @@
 // Grids whose rows lie a multiple of 512 bytes apart, in strips of a few rows.
 //
 // Kernels sweep one register of columns after the other, each through all rows, unless they sweep
-// whole rows in bands (kernels/grid/row_bands.hpp, normal_bands.hpp). Lines at such distances share
+// whole rows in bands (kernels/fast/row_bands.hpp, normal_bands.hpp). Lines at such distances share
 // an eighth of the sets of a first-level cache, or fewer: with more rows than there is room for,
 // lines leave it before the next register comes to them, which takes up to ten times as long.
 // Numbers here are measured (docs/experiments.md, Grids in cache).
@@ -37,7 +37,7 @@ template <typename T>
   const std::size_t distance = row & (~row + 1); // the largest power of two in it
   const bool line_wide = register_bytes == 64;
   // What is staged, or goes to memory in whole lines, has other limits. What kernels sweep in bands
-  // (kernels/grid/row_bands.hpp) comes to each line once, and has room until each row is a page.
+  // (kernels/fast/row_bands.hpp) comes to each line once, and has room until each row is a page.
   const bool in_bands =
       register_bytes >= 32 && task.origins == nullptr && distance < 4096 &&
       (outputs == kPosition || outputs == kPositionDerivatives || outputs == kPositionNormal);

@@ -103,7 +103,7 @@ protected:
       }
     }
   }
-  /// Wider rows than a band of registers has room for (kernels/grid/row_bands.hpp), with a rest of
+  /// Wider rows than a band of registers has room for (kernels/fast/row_bands.hpp), with a rest of
   /// each kind.
   void wide() {
     for (const std::size_t nu :

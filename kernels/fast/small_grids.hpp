@@ -15,9 +15,9 @@
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
+#include "kernels/fast/small_grid_sources.hpp"
 #include "kernels/grid/column_tile.hpp"
 #include "kernels/grid/prefetch.hpp"
-#include "kernels/grid/small_grid_sources.hpp"
 #include "kernels/simd/assembly.hpp"
 #include "kernels/simd/fours.hpp"
 

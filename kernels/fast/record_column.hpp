@@ -1,8 +1,8 @@
 // Computes the one column that whole registers leave over in grids of records: lanes are its rows.
 #pragma once
 
+#include "kernels/fast/record_samples.hpp"
 #include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/grid/record_samples.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -2,7 +2,7 @@
 // derivatives or normals.
 #pragma once
 
-#include "kernels/grid/small_grids_across.hpp"
+#include "kernels/fast/small_grids_across.hpp"
 #include "kernels/grid/tile_normals.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -12,7 +12,7 @@
 // its bits.
 #pragma once
 
-#include "kernels/grid/small_grid_jets.hpp"
+#include "kernels/fast/small_grid_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

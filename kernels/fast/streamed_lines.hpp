@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "kernels/fast/square_pieces.hpp"
 #include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/grid/square_pieces.hpp"
 #include "kernels/simd/register_pair.hpp"
 #include "kernels/simd/value_stream.hpp"
 

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
+#include "kernels/fast/small_grids.hpp"
 #include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/grid/small_grids.hpp"
 #include "kernels/simd/structures_across.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

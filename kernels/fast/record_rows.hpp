@@ -9,8 +9,8 @@
 // register begins within the one before it: what both hold is stored twice.
 #pragma once
 
+#include "kernels/fast/record_column.hpp"
 #include "kernels/grid/prefetch.hpp"
-#include "kernels/grid/record_column.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

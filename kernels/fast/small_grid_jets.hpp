@@ -4,7 +4,7 @@
 // take the patch's derivative across them, and corners the tangents of two edges each.
 #pragma once
 
-#include "kernels/grid/small_grids.hpp"
+#include "kernels/fast/small_grids.hpp"
 #include "kernels/grid/tile_normals.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -11,7 +11,7 @@
 // next one goes to the same line or the one behind it, and each plane has fewer polynomials.
 #pragma once
 
-#include "kernels/grid/band_plan.hpp"
+#include "kernels/fast/band_plan.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
