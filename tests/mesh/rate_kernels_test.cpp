@@ -234,15 +234,13 @@ TEST(RateKernels, a_value_that_is_not_finite_is_named) {
         SCOPED_TRACE(std::string(to_string(isa)) + ", component " + std::to_string(component));
         RateOptions options;
         options.tolerance = 0.01;
-        options.isa = isa;
-        Options run;
-        run.isa = isa;
+        const RunOptions run{.isa = isa};
         Rated rated;
-        for (const RateReport& report :
-             {choose_rates(model.nets(), topology, options, rated.out()),
+        for (const Report& report :
+             {choose_rates(model.nets(), topology, options, rated.out(), run),
               certify_rates(model.nets(), topology, {}, Rated().out(), run)}) {
           EXPECT_EQ(report.status, Status::non_finite_input);
-          EXPECT_EQ(report.patch, kBad);
+          EXPECT_EQ(report.item, kBad);
         }
       }
     }
