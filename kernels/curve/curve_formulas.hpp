@@ -73,11 +73,6 @@ public:
     return with_ends(value, shape.ends_at());
   }
 
-  template <std::size_t kKnownOrder>
-  SIMDBEZIER_INLINE V position(const CurveShape& shape) const {
-    return finished(shape, series<0>(Order<kKnownOrder>(shape.order())).value);
-  }
-
 private:
   /// Gives each lane value k of its own cell; both cells' are loaded only where lanes are mixed.
   SIMDBEZIER_INLINE V chosen(std::size_t k) const {

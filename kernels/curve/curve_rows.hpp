@@ -1,6 +1,8 @@
 // Positions of curves go to rows of n samples, in x y z triples or in three planes.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/curve/curve_outputs.hpp"
 #include "kernels/simd/pages.hpp"
 #include "kernels/simd/registers_to_records.hpp"
@@ -34,6 +36,13 @@ struct CurveRows {
   T* first[kStreams];
 
   static constexpr std::size_t row(std::size_t n) { return kTriples ? 3 * n : n; }
+  [[nodiscard]] SIMDBEZIER_PART bool begin_lines() const {
+    bool all = true;
+    for (T* const to : first) {
+      all = all && reinterpret_cast<std::uintptr_t>(to) % 64 == 0;
+    }
+    return all;
+  }
   SIMDBEZIER_PART CurveRows at(std::size_t values) const {
     CurveRows rows;
     for (std::size_t k = 0; k < kStreams; ++k) {

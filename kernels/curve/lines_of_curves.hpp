@@ -1,5 +1,5 @@
-// Rows of few samples, of which a register holds several: lanes = samples, of as many curves as fit
-// in.
+// Rows of few samples, of which a cache line holds one or several: lanes = samples, of as many
+// curves as fit in.
 //
 // A line of each plane, or three of triples, are computed in registers and leave at once, past the
 // caches as well. Where curves are lanes (curve/lanes_are_curves.hpp) rows are put together from
@@ -15,12 +15,15 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T>
 inline constexpr std::size_t kLineSamples = 64 / sizeof(T);
 
-/// Returns how many curves a register holds of rows of n samples, 0 where rows are not written by
-/// lines.
+/// Returns how many curves a register holds of rows of n samples: 1 where a row is a register or
+/// more, 0 where rows are not written by lines.
 template <typename T>
 SIMDBEZIER_PART std::size_t curves_in_register(std::size_t n) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
-  return n < 4 || n >= kAll || kAll % n != 0 ? 0 : kAll / n;
+  if (n < 4 || kLineSamples<T> % n != 0) {
+    return 0;
+  }
+  return n < kAll ? kAll / n : 1;
 }
 /// This is the most that it returns.
 template <typename T>
@@ -71,13 +74,13 @@ public:
     });
   }
   /// Writes them to rows, from their value `at` on.
-  SIMDBEZIER_PART void put(const T* from, const CurveRows<kTriples, T>& rows,
-                           std::size_t at) const {
+  SIMDBEZIER_PART void put(const T* from, const CurveRows<kTriples, T>& rows, std::size_t at,
+                           bool streaming) const {
     Lines lines;
     evaluate(from, lines);
     repeat<kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
       repeat<kRegisters>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-        store_any<false>(rows.first[s] + at + k * kLanes<V>, lines[s][k]);
+        store(rows.first[s] + at + k * kLanes<V>, lines[s][k], streaming);
       });
     });
   }
@@ -93,6 +96,15 @@ public:
   }
 
 private:
+  /// Both kinds of stores have one place, since twice the code would gain nothing.
+  static SIMDBEZIER_PART void store(T* to, LinePart<T> value, bool streaming) {
+    if (streaming) {
+      store_any<true>(to, value);
+    } else {
+      store_any<false>(to, value);
+    }
+  }
+
   /// Evaluates one component, whose values are its coefficients and then both ends.
   SIMDBEZIER_PART V position(const T* values, V x) const {
     const V coefficients = join_fours<kCurves, V>(values, stride_);
@@ -129,55 +141,51 @@ SIMDBEZIER_PART void fill_last_line(const CurveLines<kCurves, kTriples, T>& line
   for (std::size_t k = 0; k < rows.kStreams; ++k) {
     to.first[k] = line + k * kValues;
   }
-  lines.put(values, to, 0);
+  lines.put(values, to, 0, false);
   for (std::size_t k = 0; k < rows.kStreams; ++k) {
     __builtin_memcpy(rows.first[k], to.first[k], count * row * sizeof(T));
   }
 }
 
-/// Writes all curves of a task to rows.
+/// Writes curves [begin, end) to rows.
 ///
 /// One place serves all streams, so that it and they stay in registers: pointers that were kept in
 /// memory and read back as a pair waited for all streaming stores before them.
 template <std::size_t kCurves, bool kTriples, typename T>
-SIMDBEZIER_KERNEL void fill_lines(const CurveTask<T>& shared_task,
-                                  const CurveRows<kTriples, T>& shared_rows) {
+SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shape,
+                                std::size_t begin, std::size_t end,
+                                const CurveRows<kTriples, T>& rows, bool streaming) {
   using Lines = CurveLines<kCurves, kTriples, T>;
   constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
-  // Copies, because stores through vector types might change anything that others can see.
-  const CurveTask<T> task = shared_task;
-  const CurveRows<kTriples, T> rows = shared_rows;
-  CurveShape shape = *shared_task.shape;
-  assume_order<kOrderOfCubics>(shape);
   const std::size_t stride = shape.values();
   const Lines lines(task.x, task.n, stride);
   const std::size_t together = lines.curves();
-  const T* from = task.values + task.first_component * shape.channel_values();
-  const std::size_t whole = task.curve_count / together;
+  const T* from = task.values + begin * stride + task.first_component * shape.channel_values();
+  const std::size_t whole = (end - begin) / together;
   std::size_t at = 0;
   const auto for_lines = [&](const auto& put) SIMDBEZIER_INLINE_LAMBDA {
     for (std::size_t k = 0; k < whole; ++k, from += together * stride, at += kValues) {
       if (task.prefetch) {
         prefetch_values(from + kValuesAhead<T>, together * stride);
       }
+      if (streaming && is_turn_to_ask<T, kValues>(at)) [[unlikely]] {
+        repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+          ask_until_next_turn<kValues>(rows.first[s] + at);
+        });
+      }
       put();
     }
   };
-  if (task.streaming && whole > 0) {
+  if (streaming && whole > 0 && !rows.begin_lines()) {
     LineStream<vec<T>, true> streams[Lines::kStreams];
     repeat<Lines::kStreams>([&](std::size_t s)
                                 SIMDBEZIER_INLINE_LAMBDA { streams[s].begin(rows.first[s]); });
-    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA {
-      repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
-        ask_for_pages(page_behind(rows.first[s] + at), kValues * sizeof(T));
-      });
-      lines.put(from, streams);
-    });
+    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, streams); });
     repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA { streams[s].finish(); });
   } else {
-    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, rows, at); });
+    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, rows, at, streaming); });
   }
-  const std::size_t rest = task.curve_count - whole * together;
+  const std::size_t rest = end - begin - whole * together;
   if (rest > 0) [[unlikely]] {
     fill_last_line(lines, from, stride, rest, rows.at(at), rows.row(task.n));
   }

@@ -30,4 +30,17 @@ SIMDBEZIER_INLINE void ask_for_pages(std::uintptr_t to, std::size_t bytes) {
   }
 }
 
+/// Streams of values that are written in steps of kStep ask where this holds: about once in as many
+/// values as fill a page, counted from the stream's first value.
+template <typename T, std::size_t kStep>
+constexpr bool is_turn_to_ask(std::size_t at) {
+  return at % (kPage / sizeof(T)) < kStep;
+}
+/// Asks for the pages behind `to`, as far as the next turn: that may come a step later than a page,
+/// since kStep need not divide it.
+template <std::size_t kStep, typename T>
+SIMDBEZIER_INLINE void ask_until_next_turn(const T* to) {
+  ask_for_pages(page_behind(to), kPage + kStep * sizeof(T));
+}
+
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

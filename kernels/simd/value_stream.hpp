@@ -51,12 +51,12 @@ private:
   __m256 first_;
 };
 
-/// Stores lanes [first, last), which begin a stream: the others are somebody else's.
+/// Stores the lanes from number `first` on, which begin a stream: the others are somebody else's.
 template <typename V>
-SIMDBEZIER_INLINE void store_from(std::size_t first, std::size_t last, ScalarOf<V>* to, V values) {
+SIMDBEZIER_INLINE void store_from(std::size_t first, ScalarOf<V>* to, V values) {
   alignas(64) ScalarOf<V> lanes[kLanes<V>];
   store_vector(lanes, values);
-  for (std::size_t k = first; k < last; ++k) {
+  for (std::size_t k = first; k < kLanes<V>; ++k) {
     to[k] = lanes[k];
   }
 }
@@ -105,7 +105,7 @@ public:
     V turned;
     std::size_t k = 0;
     if (foreign_ > 0) [[unlikely]] {
-      store_from(foreign_, kL, to, joined(value(0), turned));
+      store_from(foreign_, to, joined(value(0), turned));
       kept_ = turned;
       foreign_ = 0;
       to += kL;
@@ -135,9 +135,7 @@ public:
     to_ = to;
   }
   SIMDBEZIER_INLINE void finish() const {
-    if (foreign_ > 0) [[unlikely]] {
-      store_from(foreign_, filled_, to_, kept_);
-    } else if (filled_ > 0) {
+    if (filled_ > 0) {
       store_first(to_, kept_, filled_);
     }
   }
@@ -182,7 +180,7 @@ private:
   /// Stores a register, behind which come lanes of `next`.
   SIMDBEZIER_INLINE void end_register(V values, V next) {
     if (foreign_ > 0) [[unlikely]] {
-      store_from(foreign_, kL, to_, values);
+      store_from(foreign_, to_, values);
       foreign_ = 0;
     } else {
       stream(to_, values);
