@@ -135,6 +135,8 @@ struct Channels {
   SIMDBEZIER_PART bool exists(std::size_t slot) const {
     return kComponents != 0 || slot < count_ || slot == kWeight;
   }
+  /// Whether there are three components from the first one on, at least.
+  SIMDBEZIER_PART bool are_three() const { return kMost == 3 && (kComponents != 0 || count_ > 2); }
   /// Calls f(slot) for the components. Calls are unrolled only where their number is known, because
   /// that keeps polynomials in registers: it is much code.
   template <typename F>

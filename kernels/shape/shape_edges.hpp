@@ -69,6 +69,35 @@ public:
     }
   }
 
+  /// Finds positions of three components on an edge v = const, all at once. Returns false where
+  /// there are other components.
+  SIMDBEZIER_PART bool find_positions(std::size_t edge, V position[3]) const {
+    if (P::kWeighted || !slots_.are_three() || has_origins() || takes_even_odd(shape_.order_u())) {
+      return false;
+    }
+    const std::size_t powers = slots_.channel(0) * shape_.edge_powers() * 4 + edge;
+    const std::size_t corners =
+        shape_.corners_at() + slots_.channel(0) * 4 + detail::corner_index(0, edge);
+    if (columns_.any_low && columns_.any_high) {
+      const std::ptrdiff_t to_high = row_->high.edges - row_->low.edges;
+      horner_positions(
+          row_->low.edges + powers, position, [&](const T* c) SIMDBEZIER_INLINE_LAMBDA {
+            return select_where<V>(columns_.low, broadcast<V>(c[0]), broadcast<V>(c[to_high]));
+          });
+      repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        position[i] = replaced(position[i], corners + i * 4, &Cell<T>::edges);
+      });
+    } else {
+      const T* const edges = columns_.any_low ? row_->low.edges : row_->high.edges;
+      horner_positions(edges + powers, position,
+                       [](const T* c) SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(*c); });
+      columns_.on_edges.template replace<3>(
+          own_address(edges + corners),
+          [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA -> V& { return position[i]; });
+    }
+    return true;
+  }
+
   /// find_origins() of edges that are made here, from single values: objects would have to be put
   /// together in memory, which the fast path pays as well.
   static SIMDBEZIER_RARE void all_origins(NetShape shape, V x, bool watertight,
@@ -101,6 +130,24 @@ public:
   }
 
 private:
+  /// Horner's rule for an edge of three components, from the constant coefficient of the first one
+  /// on. One index serves all of them.
+  template <typename Load>
+  SIMDBEZIER_INLINE void horner_positions(const T* first, V position[3], const Load& load) const {
+    const std::size_t step = shape_.edge_powers() * 4;
+    const T* const of[3] = {own_address(first), own_address(first + step),
+                            own_address(first + 2 * step)};
+    const V x = columns_.local.x;
+    std::size_t at = (shape_.order_u() - 1) * 4;
+    repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { position[i] = load(of[i] + at); });
+    do {
+      at -= 4;
+      repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        position[i] = madd(position[i], x, load(of[i] + at));
+      });
+    } while (at != 0);
+  }
+
   SIMDBEZIER_KERNEL void row_of_edge(std::size_t edge, SampleJet<V>& jet) const {
     compute_row(edge, jet);
   }

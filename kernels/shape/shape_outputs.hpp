@@ -178,8 +178,7 @@ SIMDBEZIER_PART bool wants_curvatures(const SampleTask<T>& task) {
   return wanted;
 }
 
-/// Stores all outputs that a task wants and a kernel of this plan computes, up to first
-/// derivatives.
+/// Stores all outputs that a task wants and a kernel of this plan computes.
 template <typename P, typename V>
 SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                   const SampleJet<V>& jet) {
@@ -191,6 +190,22 @@ SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const Sam
       store_normals<P>(task, range, jet);
     }
   }
+  if constexpr (P::kDepth > 1) {
+    store_group<P>(task, Output::duu, range, jet.duu);
+    store_group<P>(task, Output::duv, range, jet.duv);
+    store_group<P>(task, Output::dvv, range, jet.dvv);
+    if (wants_curvatures(task)) {
+      store_curvatures<P>(task, &range, &jet, 1);
+    }
+  }
+}
+
+/// This is store_sample() as a function, for scattered samples: their loops have jets in memory
+/// anyway.
+template <typename P, typename V>
+SIMDBEZIER_KERNEL void store_shared(const SampleTask<ScalarOf<V>>& task,
+                                    const SampleRange<V>& range, const SampleJet<V>& jet) {
+  store_sample<P>(task, range, jet);
 }
 
 /// Stores all outputs of at most kTogether registers of the same columns, from memory. It is a

@@ -157,7 +157,9 @@ private:
     for (std::size_t k = 0; k < rows.edges; ++k) {
       const ShapeRow<T>& row = rows.edge_row(k);
       SampleJet<V> jet;
-      edges_.replace_row(row.edge, jet);
+      if (!edges_.find_positions(row.edge, jet.position)) {
+        edges_.replace_row(row.edge, jet);
+      }
       to.put(row, jet.position);
     }
   }

@@ -111,7 +111,7 @@ SIMDBEZIER_KERNEL std::uint32_t evaluate_together(const ScatteredTask<T>& task,
   if (alone && !finite && task.status != nullptr) {
     task.status[k] = SampleStatus::non_finite;
   }
-  store_jets<P>(task, &range, &jet, 1);
+  store_shared<P>(task, range, jet);
   return alone ? 0 : special;
 }
 
@@ -136,7 +136,7 @@ SIMDBEZIER_KERNEL bool evaluate_single(const ScatteredTask<T>& task, const NetSh
   columns.template evaluate<1>(&row.local.x, &jet);
   SampleRange<T> range{patch, k, 1, 0, x, y, {}};
   range.floor = sample_floor<P>(task, range);
-  store_jets<P>(task, &range, &jet, 1);
+  store_shared<P>(task, range, jet);
   return true;
 }
 
