@@ -7,8 +7,8 @@
 #include "kernels/curve/joined_rows.hpp"
 #include "kernels/curve/lanes_are_curves.hpp"
 #include "kernels/curve/lanes_are_samples.hpp"
+#include "kernels/curve/line_ring.hpp"
 #include "kernels/curve/lines_of_curves.hpp"
-#include "kernels/simd/line_ring.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
