@@ -181,7 +181,7 @@ void require_knots(const Report& report, const GivenSpline& spline) {
   const std::size_t points = is_v ? spline.rows() : spline.columns();
   switch (report.status.code()) {
   case Status::bad_knots:
-    throw_knots(direction, points, report.point, spline.tolerance);
+    throw_knots(direction, points, static_cast<std::size_t>(report.point), spline.tolerance);
   case Status::bad_grid:
     throw_value_error(
         "points", "expected " + std::to_string(direction.degree + (direction.periodic ? 0 : 1)) +
@@ -216,13 +216,14 @@ void require_points(const Report& report, const GivenSpline& spline, const std::
       report.status == Status::bad_weight) {
     const bool is_weight = report.status == Status::bad_weight;
     const bool beside = is_weight && spline.points.weights == Weights::cartesian;
+    const auto point = static_cast<std::size_t>(report.point);
     const std::size_t columns = std::max<std::size_t>(spline.columns(), 1);
     const bool is_curve = spline.points.array && spline.points.array.ndim() == 2;
     throw_value_error(beside ? "weights" : argument,
                       std::string(to_string(report.status)) +
-                          (is_curve ? " (point " + std::to_string(report.point)
-                                    : " (row " + std::to_string(report.point / columns) +
-                                          ", column " + std::to_string(report.point % columns)) +
+                          (is_curve ? " (point " + std::to_string(point)
+                                    : " (row " + std::to_string(point / columns) + ", column " +
+                                          std::to_string(point % columns)) +
                           (is_weight ? "" : ", component " + std::to_string(report.component)) +
                           ")");
   }
@@ -237,8 +238,9 @@ void require_parameters(const Report& report, const GivenSpline& spline,
     const Interval domain =
         is_v ? spline.v.domain(spline.rows()) : spline.u.domain(spline.columns());
     throw_value_error(name, "number " + std::to_string(report.point) + ", " +
-                                text_of(values[report.point]) + ", is outside of " +
-                                text_of(domain.begin) + " to " + text_of(domain.end));
+                                text_of(values[static_cast<std::size_t>(report.point)]) +
+                                ", is outside of " + text_of(domain.begin) + " to " +
+                                text_of(domain.end));
   }
 }
 

@@ -34,12 +34,13 @@ std::pair<std::string, std::string> complaint(const SplineDirection& direction, 
     return {"a range inside of " + shortest(begin) + " to " + shortest(end),
             shortest(direction.range.begin) + " to " + shortest(direction.range.end)};
   }
-  const double knot = knots[report.point];
+  const auto at = static_cast<std::size_t>(report.point);
+  const double knot = knots[at];
   if (std::fabs(knot) > 0x1p1000) {
     return {"knots of 2^1000 at most", shortest(knot)};
   }
-  if (report.point > 0 && knot < knots[report.point - 1]) {
-    return {"ascending knots", shortest(knot) + " behind " + shortest(knots[report.point - 1])};
+  if (at > 0 && knot < knots[at - 1]) {
+    return {"ascending knots", shortest(knot) + " behind " + shortest(knots[at - 1])};
   }
   if (!(begin < end)) {
     return {"a domain from one knot to a larger one", shortest(begin) + " to " + shortest(end)};
