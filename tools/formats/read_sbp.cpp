@@ -23,12 +23,13 @@ PatchFile read_sbp(TextInput& input, const ReadOptions& /*options*/) try {
   const SbpIndex index = read_sbp_index(file.name, read);
   file.cut_error = index.moved_error;
   for (const SbpBlock& block : index.blocks) {
-    const std::shared_ptr<std::byte[]> bytes = input.bytes().take(block.bytes);
+    const auto size = static_cast<std::size_t>(block.bytes); // at most kMostSbpBlockBytes
+    const std::shared_ptr<std::byte[]> bytes = input.bytes().take(size);
     if (bytes == nullptr) {
       refuse_cut_sbp(file.name, "its patches");
     }
-    expect_intact(file.name, index, block, {bytes.get(), block.bytes});
-    add_sbp_patches(file, block, bytes, block.count);
+    expect_intact(file.name, index, block, {bytes.get(), size});
+    add_sbp_patches(file, block, bytes, static_cast<std::size_t>(block.count));
   }
   std::byte behind = {};
   if (read(std::span(&behind, 1)) != 0) {
