@@ -124,6 +124,7 @@ private:
     how.threads = options_.threads;
     how.isa = options_.isa;
     const Report report = pack(nets_, plan_.set, how);
+    plan_.report = report; // which says more than the patch
     return report ? Status(Status::ok) : fault_at(report.item, report.status);
   }
 
@@ -133,6 +134,12 @@ private:
          {options_.rates.tolerances, options_.rates.errors}) {
       if (!values.empty() && values.size() != given) {
         return Status::bad_rates;
+      }
+    }
+    for (const double& error : options_.rates.errors) {
+      if (!(error >= 0)) { // a sum with the vertices' own errors would hide it
+        plan_.report.item = static_cast<std::size_t>(&error - options_.rates.errors.data());
+        return Status::bad_tolerance;
       }
     }
     PointBox box;

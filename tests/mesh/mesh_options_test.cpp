@@ -256,6 +256,11 @@ const Refused kRefused[] = {
        static constexpr double kOne[] = {0};
        o.rates.errors = kOne;
      }},
+    {"error below 0", Status::bad_tolerance,
+     [](MeshOptions& o) {
+       static constexpr double kSix[] = {0, 0, 0, 0, -1e-20, 0};
+       o.rates.errors = kSix;
+     }},
     {"one tolerance", Status::bad_rates,
      [](MeshOptions& o) {
        static constexpr double kOne[] = {1};
@@ -293,6 +298,8 @@ TEST(MeshOptions, refuses_bad_nets) {
   const Mesh<float> mesh = mesh_of(nets);
   EXPECT_EQ(mesh.report.status, Status::non_finite_input);
   EXPECT_EQ(mesh.report.item, 3U);
+  EXPECT_EQ(mesh.report.point, 1);
+  EXPECT_EQ(mesh.report.component, 2);
   auto flat = nets;
   flat.components = 2;
   EXPECT_EQ(mesh_of(flat).report.status, Status::bad_components);

@@ -69,7 +69,7 @@ public:
                                  double pixels) const {
     double nearest = HUGE_VAL; // the depths of points, times the length of the camera's direction
     double farthest = -HUGE_VAL;
-    ask_for_net(nets, patch + 8);
+    ask_for_net(nets, std::min(patch + 8, nets.count - 1));
     for_points(nets, patch, [&](const Point3& point) {
       const double depth = along_axis(point);
       nearest = std::min(nearest, depth);
