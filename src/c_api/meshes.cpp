@@ -1,7 +1,6 @@
 // Meshes in one call, and plans of them, of simdbezier.h.
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include <simdbezier/mesh.hpp>
 
@@ -20,11 +19,6 @@ static_assert(sizeof(simdbezier_patch_piece) == sizeof(PatchPiece) &&
               offsetof(simdbezier_patch_piece, v0) == offsetof(PatchPiece, v0) &&
               offsetof(simdbezier_patch_piece, v1) == offsetof(PatchPiece, v1) &&
               offsetof(simdbezier_patch_piece, error) == offsetof(PatchPiece, error));
-
-/// Zero stands for no limit.
-double limit_of(double value) {
-  return value == 0 ? std::numeric_limits<double>::infinity() : value;
-}
 
 MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
   const simdbezier_mesh_options known = read(given, kOptions);

@@ -40,20 +40,14 @@ CertifiedRates certified(const RateSpans& rates) {
 RateOptions rate_options_of(const simdbezier_rate_options* given) {
   const simdbezier_rate_options known = read(given, kOptions);
   RateOptions options;
-  if (known.tolerance != 0) {
-    options.tolerance = known.tolerance;
-  }
+  options.tolerance = limit_of(known.tolerance);
   options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
   options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
-  if (known.longest_edge != 0) {
-    options.longest_edge = known.longest_edge;
-  }
+  options.longest_edge = limit_of(known.longest_edge);
   if (known.most_segments != 0) {
     options.most_segments = known.most_segments;
   }
-  if (known.normal_degrees != 0) {
-    options.normal_degrees = known.normal_degrees;
-  }
+  options.normal_degrees = limit_of(known.normal_degrees);
   options.keep = known.keep;
   return options;
 }

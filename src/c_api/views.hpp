@@ -12,6 +12,7 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/outputs.hpp>
 #include <simdbezier/patch_set.hpp>
+#include <simdbezier/rates.hpp>
 #include <simdbezier/status.hpp>
 
 #include "src/c_api/structs.hpp"
@@ -27,6 +28,9 @@ inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice(isa, kLa
 inline Destination destination_of(simdbezier_destination destination) {
   return choice(destination, Destination::memory, kOptions / "destination");
 }
+
+/// In C, zero stands for no limit.
+inline double limit_of(double value) noexcept { return value == 0 ? kUnlimited : value; }
 
 inline Options call_options_of(const simdbezier_options* given) {
   const simdbezier_options known = read_options(given, kOptions);
