@@ -255,7 +255,7 @@ template <typename S>
 // nets of double are rounded after every sum. The result is exact if these sums are: for integer
 // control points of moderate size, and no denominator or one that divides the sum.
 //
-// The constraints of nets.hpp hold here as well: outputs, faults, bits, zeros, threads, statuses.
+// The constraints of all calls hold here as well: outputs, faults, bits, zeros, threads, statuses.
 
 /// What the values of a "net" stand for in each direction, and which denominators conversions have.
 enum class Basis : std::uint8_t {
