@@ -43,14 +43,21 @@ public:
     PlanCache<T> plans(scratch + delivery_bytes_);
     PieceEvaluator<T> evaluator(kernels_, kMostRows, scratch + delivery_bytes_ + plan_bytes_);
     Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);
-    for (std::size_t k = grids_.grid_of(begin); k < grids_.size() && grids_.before(k) < end; ++k) {
+    for (std::size_t k = grids_.grid_of(begin); k < grids_.size() && grids_.before(k) < end;) {
       const std::size_t nu = grids_.nu(k);
       const std::size_t nv = grids_.nv(k);
+      const GridPlan<T>& plan = plans.find(nu, nv);
+      if (const std::size_t alike = alike_from(k, begin, end); alike > 1) {
+        const GridPiece piece{first_patch_ + k, alike, 0, nv};
+        evaluator.run(plan, piece, {outputs_, delivery, grids_.offset(k)}, nullptr);
+        delivery.end(alike * nv * nu);
+        k += alike;
+        continue;
+      }
       const std::size_t before = grids_.before(k);
       const auto rows_before = [&](std::size_t sample) {
         return sample <= before ? 0 : std::min(nv, (sample - before + nu - 1) / nu);
       };
-      const GridPlan<T>& plan = plans.find(nu, nv);
       for (std::size_t row = rows_before(begin), last = rows_before(end); row < last;) {
         const std::size_t most = std::min(std::max<std::size_t>(piece_samples_ / nu, 1), kMostRows);
         const std::size_t rows = std::min(last - row, most);
@@ -61,12 +68,32 @@ public:
         delivery.end(rows * nu);
         row += rows;
       }
+      ++k;
     }
     delivery.finish();
     return evaluator.executed();
   }
 
 private:
+  /// How many patches from k on one piece takes: whole grids of one size, one behind the other in
+  /// the caller's memory, within a share of work and a chunk of staging.
+  [[nodiscard]] std::size_t alike_from(std::size_t k, std::size_t begin,
+                                       std::size_t end) const noexcept {
+    const std::size_t nu = grids_.nu(k);
+    const std::size_t nv = grids_.nv(k);
+    const std::size_t samples = nu * nv;
+    if (nv > kMostRows || grids_.before(k) < begin) {
+      return 1;
+    }
+    const std::size_t most = outputs_.staged() ? piece_samples_ / samples : ~std::size_t(0);
+    std::size_t last = k;
+    while (last < grids_.size() && last - k < most && grids_.nu(last) == nu &&
+           grids_.nv(last) == nv && grids_.before(last) + samples <= end &&
+           grids_.offset(last) == grids_.offset(k) + (last - k) * samples) {
+      ++last;
+    }
+    return last - k;
+  }
   /// The next rows of patch k, of which there are `last`, or the first ones of the patch behind it
   /// where its grid is the same; otherwise the piece itself.
   [[nodiscard]] GridPiece piece_after(const GridPiece& piece, std::size_t k, std::size_t last,
