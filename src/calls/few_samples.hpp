@@ -54,8 +54,19 @@ private:
   struct Range {
     const T* first;
     std::size_t values;
+    std::size_t stride; ///< of triples; 0: a plane
 
     [[nodiscard]] MemoryRange bytes() const noexcept { return {first, values * sizeof(T)}; }
+    /// Whether both are triples of the same records, side by side.
+    [[nodiscard]] bool is_beside(const Range& other) const noexcept {
+      const auto place = [](const Range& range) {
+        return reinterpret_cast<std::uintptr_t>(range.first);
+      };
+      const std::uintptr_t apart =
+          place(*this) < place(other) ? place(other) - place(*this) : place(*this) - place(other);
+      return stride > 0 && stride == other.stride && apart >= 3 * sizeof(T) &&
+             apart + 3 * sizeof(T) <= stride * sizeof(T);
+    }
   };
 
   [[nodiscard]] std::size_t count() const noexcept { return samples_.patch.size(); }
@@ -94,7 +105,8 @@ private:
     }
     for (std::size_t i = 1; i < range_count_ && !ascend; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        usual = usual && !ranges_[i].bytes().meets(ranges_[j].bytes());
+        usual = usual &&
+                (ranges_[i].is_beside(ranges_[j]) || !ranges_[i].bytes().meets(ranges_[j].bytes()));
       }
     }
     return usual && group_count_ > 0;
@@ -102,11 +114,12 @@ private:
   [[nodiscard]] bool add_ranges(const Vectors<T>& v) noexcept {
     constexpr std::ptrdiff_t kMostStride = 1 << 20;
     if (v.y == v.x + 1 && v.z == v.x + 2 && v.stride >= 3 && v.stride < kMostStride) {
-      ranges_[range_count_++] = {v.x, (count() - 1) * static_cast<std::size_t>(v.stride) + 3};
+      const auto stride = static_cast<std::size_t>(v.stride);
+      ranges_[range_count_++] = {v.x, (count() - 1) * stride + 3, stride};
       return true;
     }
     for (T* const plane : {v.x, v.y, v.z}) {
-      ranges_[range_count_++] = {plane, count()};
+      ranges_[range_count_++] = {plane, count(), 0};
     }
     return v.stride == 1;
   }

@@ -245,19 +245,27 @@ protected:
         Results<T> together(kCount);
         scattered(*set, all, together.outputs(groups));
         for (std::size_t few = 1; few <= 17; ++few) {
-          for (const std::size_t stride : {std::size_t{0}, std::size_t{3}, std::size_t{7}}) {
+          constexpr std::size_t kRecord = 3 * kGroups + 1; // of all groups, side by side
+          for (const std::size_t stride :
+               {std::size_t{0}, std::size_t{3}, std::size_t{7}, kRecord}) {
             const std::size_t first = few * 10;
             const std::size_t values = stride == 0 ? 3 * few : (few - 1) * stride + 3;
-            std::vector<T> memory(kGroups * (values + kAfter), Results<T>::kUntouched);
+            const std::size_t apart = stride == kRecord ? 3 : values + kAfter; // of groups
+            std::vector<T> memory(kGroups * apart + values + kAfter, Results<T>::kUntouched);
+            std::vector<T> expected = memory;
             Outputs<T> out = together.outputs(groups); // which ones; their places are replaced
             out.status = {};
-            T* at = memory.data();
-            for (std::size_t g = 0; g < kGroups; ++g, at += values + kAfter) {
+            for (std::size_t g = 0; g < kGroups; ++g) {
+              T* const at = memory.data() + g * apart;
               Vectors<T>& to = out[static_cast<Output>(g)];
               if (to.wanted()) {
                 to = stride == 0
                          ? Vectors<T>::planes(at, at + few, at + 2 * few)
                          : Vectors<T>{at, at + 1, at + 2, static_cast<std::ptrdiff_t>(stride), few};
+              }
+              for (std::size_t k = 0; (groups >> g & 1U) != 0 && k < 3 * few; ++k) {
+                const std::size_t place = stride == 0 ? k : k % few * stride + k / few;
+                expected[g * apart + place] = together.plane(3 * g + k / few)[first + k % few];
               }
             }
             Options options;
@@ -268,16 +276,8 @@ protected:
                                out, options),
                       Status::ok);
             EXPECT_EQ(take_executed_isa(), this->isa());
-            at = memory.data();
-            for (std::size_t g = 0; g < kGroups; ++g, at += values + kAfter) {
-              std::vector<T> expected(values + kAfter, Results<T>::kUntouched);
-              for (std::size_t k = 0; (groups >> g & 1U) != 0 && k < 3 * few; ++k) {
-                const std::size_t place = stride == 0 ? k : k % few * stride + k / few;
-                expected[place] = together.plane(3 * g + k / few)[first + k % few];
-              }
-              EXPECT_TRUE(std::equal(expected.begin(), expected.end(), at, same_bits<T>))
-                  << few << " samples, stride " << stride << ", groups " << groups << ", " << g;
-            }
+            EXPECT_TRUE(std::equal(expected.begin(), expected.end(), memory.begin(), same_bits<T>))
+                << few << " samples, stride " << stride << ", groups " << groups;
           }
         }
       }
