@@ -210,7 +210,7 @@ edge_registers(const detail::EdgeTask<T>& task, const detail::EdgeTask<T>& share
       if (m == 0 && positions.wanted()) {
         put_points(positions, job.place + first[r], task.step, count, p[r]);
       }
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < 3 && normals.wanted(); ++c) { // else n is nothing
         n[r][c] = broadcast<V>(member.sign) * n[r][c];
         first_normal[r][c] = m == 0 ? n[r][c] : first_normal[r][c];
         sum[r][c] = m == 0 ? n[r][c] : sum[r][c] + n[r][c];
