@@ -56,10 +56,34 @@ struct MeshOptions {
   constexpr operator RunOptions() const noexcept { return {threads, isa}; } // NOLINT: it is one
 };
 
+/// What keeps a patch from its tolerance if a plan's report is bad_tolerance or snap_too_large.
+enum class RateLimit : std::uint8_t {
+  none,   ///< no single patch is at fault
+  errors, ///< its vertices' own errors, which leave nothing of the tolerance or have no bound
+  angle,  ///< RateOptions::normal_degrees, which needs too many cells; the tolerance could be kept
+  snap,   ///< moved edges, which leave too little of the tolerance
+  cells   ///< the tolerance, which needs more than RateOptions::most_segments cells a direction
+};
+
+/// A limit, and the numbers of the patch that Report::item names.
+struct RateFault {
+  RateLimit limit = RateLimit::none;
+  double tolerance = kUnlimited; ///< the smallest of those asked of it
+  double error = 0;              ///< how far its vertices may be off
+};
+
+/// Wall time of the stages of a plan; 0 in WebAssembly, which has no clock of its own.
+struct PlanSeconds {
+  double topology = 0; ///< edges, and the layout
+  double pack = 0;     ///< and errors of positions
+  double rates = 0;
+};
+
 /// A mesh that is laid out but not evaluated yet.
 template <typename T>
 struct MeshPlan {
-  Report report; ///< names the patch at fault by its number among those given
+  Report report;   ///< names the patch at fault by its number among those given
+  RateFault fault; ///< why rates were refused
   PatchSet<T> set;
   /// Counts all patches given, or their pieces, including repeated ones that were left out.
   TopologyCounts counts;
@@ -72,9 +96,11 @@ struct MeshPlan {
   std::vector<PatchPiece> pieces;
   std::vector<std::uint32_t> cells_u; ///< of each patch of the set
   std::vector<std::uint32_t> cells_v;
-  std::vector<double> deviations; ///< certified, of each patch of the set
+  std::vector<double> errors;     ///< how far vertices of each patch of the set may be off
+  std::vector<double> deviations; ///< certified, of each patch of the set, errors included
   double deviation = 0;           ///< the largest of them
   double diagonal = 0;            ///< the length of that of the box of all control points
+  PlanSeconds seconds;
 
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(report); }
 };
@@ -114,6 +140,23 @@ template <typename T, typename S>
 [[nodiscard]] MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets,
                                     const MeshOptions& options) noexcept;
 
+/// Chooses rates and lays out again, for another tolerance, grid, crease or view of a model whose
+/// set and topology a plan has already: a slider that changes how fine a mesh is, or a camera.
+/// nets:    those that the plan was made of, unchanged.
+/// plan:    its set, topology, errors and diagonal are read, so that a caller may also fill them
+/// in.
+///          No patches were left out or cut (MeshPlan::patches is empty).
+/// options: those of topology, RateOptions::errors, drop_repeated, split_edges and local_origin
+/// have
+///          no meaning: what the plan was made with holds.
+/// Returns: as choose_rates() and lay_out_mesh(); bad_topology for other nets, bad_rates if errors
+///          are not one value a patch. On an error the plan keeps what is read, with the report and
+///          the fault.
+/// Memory, threads and cost: those of choose_rates() and lay_out_mesh().
+template <typename T, typename S>
+SIMDBEZIER_API Report plan_again(std::span<const ControlNets<S>> nets, const MeshOptions& options,
+                                 MeshPlan<T>& plan) noexcept;
+
 /// Plans and evaluates a mesh. Neither threads nor the instruction set within a class change a bit.
 /// Returns: in Mesh::report, as plan_mesh(); size_overflow also if vertices exceed 2^32 - 1.
 /// Memory:  allocates the plan, which is freed at the end, and the mesh.
@@ -130,6 +173,12 @@ template <typename T, typename S>
 template <typename T, typename S>
 [[nodiscard]] Mesh<T> tessellate(const ControlNets<S>& nets, const MeshOptions& options) noexcept {
   return tessellate<T>(std::span<const ControlNets<S>>(&nets, 1), options);
+}
+
+template <typename T, typename S>
+Report plan_again(const ControlNets<S>& nets, const MeshOptions& options,
+                  MeshPlan<T>& plan) noexcept {
+  return plan_again<T>(std::span<const ControlNets<S>>(&nets, 1), options, plan);
 }
 
 /// The same if no type is named: tessellate(nets, options) has the number type of the nets. The

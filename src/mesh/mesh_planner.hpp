@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
 #include <simdbezier/mesh.hpp>
 
+#include "src/choice/clock.hpp"
 #include "src/mesh/mesh_measures.hpp"
 #include "src/mesh/net_points.hpp"
 #include "src/nets/net_call.hpp"
@@ -24,17 +27,41 @@ public:
       : given_(nets), nets_(nets), given_errors_(errors), options_(options), plan_(plan) {}
 
   Status run() {
-    for (const auto step : {&MeshPlanner::check, &MeshPlanner::leave_out, &MeshPlanner::split,
-                            &MeshPlanner::join, &MeshPlanner::pack_nets, &MeshPlanner::measure,
-                            &MeshPlanner::choose, &MeshPlanner::lay_out}) {
-      if (const Status status = (this->*step)(); !status) {
+    return run({{&MeshPlanner::check, nullptr},
+                {&MeshPlanner::leave_out, &PlanSeconds::topology},
+                {&MeshPlanner::split, &PlanSeconds::topology},
+                {&MeshPlanner::join, &PlanSeconds::topology},
+                {&MeshPlanner::pack_nets, &PlanSeconds::pack},
+                {&MeshPlanner::measure, &PlanSeconds::pack},
+                {&MeshPlanner::choose, &PlanSeconds::rates},
+                {&MeshPlanner::lay_out, &PlanSeconds::topology}});
+  }
+  /// The steps that come after the set and the topology, which the plan has.
+  Status run_again() {
+    return run({{&MeshPlanner::check, nullptr},
+                {&MeshPlanner::choose, &PlanSeconds::rates},
+                {&MeshPlanner::lay_out, &PlanSeconds::topology}});
+  }
+
+private:
+  struct Step {
+    Status (MeshPlanner::*take)();
+    double PlanSeconds::*seconds; ///< where its time counts; null: nowhere
+  };
+  Status run(std::initializer_list<Step> steps) {
+    for (const Step& step : steps) {
+      const std::int64_t begin = clock_now();
+      const Status status = (this->*step.take)();
+      if (step.seconds != nullptr) {
+        plan_.seconds.*step.seconds += static_cast<double>(clock_now() - begin) * 1e-9;
+      }
+      if (!status) {
         return status;
       }
     }
     return Status::ok;
   }
 
-private:
   [[nodiscard]] bool is_uniform() const { return options_.nu != 0 || options_.nv != 0; }
   /// The number of a patch of the set among those given.
   [[nodiscard]] std::size_t given_patch(std::size_t patch) const {
@@ -129,12 +156,8 @@ private:
   }
 
   Status measure() {
-    const std::size_t given = patches_of(given_);
-    for (const std::span<const double> values :
-         {options_.rates.tolerances, options_.rates.errors}) {
-      if (!values.empty() && values.size() != given) {
-        return Status::bad_rates;
-      }
+    if (!is_one_a_patch(options_.rates.errors)) {
+      return Status::bad_rates;
     }
     for (const double& error : options_.rates.errors) {
       if (!(error >= 0)) { // a sum with the vertices' own errors would hide it
@@ -150,24 +173,32 @@ private:
     }
     plan_.diagonal = box.diagonal();
     const std::size_t patches = plan_.set.size();
-    plan_.cells_u.resize(patches);
-    plan_.cells_v.resize(patches);
-    plan_.deviations.resize(patches);
-    diagonals_.resize(patches);
-    errors_.resize(patches);
-    const Status status = position_errors(plan_.set, errors_, options_);
+    plan_.errors.resize(patches);
+    const Status status = position_errors(plan_.set, plan_.errors, options_);
     for (std::size_t patch = 0; patch < plan_.pieces.size(); ++patch) {
-      errors_[patch] += plan_.pieces[patch].error;
+      plan_.errors[patch] += plan_.pieces[patch].error;
     }
     for (const std::span<const double> known : {given_errors_, options_.rates.errors}) {
       for (std::size_t patch = 0; patch < patches && !known.empty(); ++patch) {
-        errors_[patch] += known[given_patch(patch)];
+        plan_.errors[patch] += known[given_patch(patch)];
       }
     }
     return status;
   }
 
+  [[nodiscard]] bool is_one_a_patch(std::span<const double> values) const {
+    return values.empty() || values.size() == patches_of(given_);
+  }
+
   Status choose() {
+    if (!is_one_a_patch(options_.rates.tolerances)) {
+      return Status::bad_rates;
+    }
+    const std::size_t patches = plan_.set.size();
+    plan_.cells_u.resize(patches);
+    plan_.cells_v.resize(patches);
+    plan_.deviations.resize(patches);
+    diagonals_.resize(patches);
     const CertifiedRates rates{plan_.cells_u, plan_.cells_v, diagonals_, plan_.deviations};
     Report report;
     if (is_uniform()) {
@@ -175,15 +206,17 @@ private:
       std::fill(plan_.cells_v.begin(), plan_.cells_v.end(), options_.nv - 1);
       std::size_t raised = 0;
       report.status = separate_vertices(plan_.topology, plan_.cells_u, plan_.cells_v, raised);
-      report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates, options_) : report;
+      report =
+          report ? certify_rates<S>(nets_, plan_.topology, plan_.errors, rates, options_) : report;
     } else {
       RateOptions how = options_.rates;
-      how.errors = errors_;
+      how.errors = plan_.errors;
       how.keep = 0;
       if (const Status status = find_tolerances(how); !status) {
         return status;
       }
       report = choose_rates<S>(nets_, plan_.topology, how, rates, options_);
+      find_fault(report, how, rates);
     }
     if (!report) {
       return fault_at(report.item, report.status);
@@ -192,6 +225,35 @@ private:
                           ? 0
                           : *std::max_element(plan_.deviations.begin(), plan_.deviations.end());
     return Status::ok;
+  }
+
+  static bool is_too_fine(Status status) {
+    return status == Status::bad_tolerance || status == Status::snap_too_large;
+  }
+  /// What kept the patch at fault from its tolerance.
+  void find_fault(const Report& report, RateOptions how, const CertifiedRates& rates) {
+    RateFault& fault = plan_.fault;
+    fault = {};
+    if (!is_too_fine(report.status)) {
+      return;
+    }
+    const std::size_t patch = report.item;
+    fault.tolerance =
+        how.tolerances.empty() ? how.tolerance : std::min(how.tolerance, how.tolerances[patch]);
+    fault.error = plan_.errors[patch];
+    fault.limit = RateLimit::angle;
+    if (how.normal_degrees != kUnlimited) { // would it have its rates without the angle?
+      how.normal_degrees = kUnlimited;
+      const Report wider = choose_rates<S>(nets_, plan_.topology, how, rates, options_);
+      if (!is_too_fine(wider.status) || wider.item != patch) {
+        return;
+      }
+    }
+    const bool has_room = std::isfinite(fault.error) && fault.tolerance != kUnlimited &&
+                          fault.tolerance > fault.error;
+    fault.limit = !has_room                                 ? RateLimit::errors
+                  : report.status == Status::snap_too_large ? RateLimit::snap
+                                                            : RateLimit::cells;
   }
 
   /// The smallest of what is asked of each patch.
@@ -238,7 +300,6 @@ private:
   DistinctNets<S> distinct_;
   const MeshOptions& options_;
   MeshPlan<T>& plan_;
-  std::vector<double> errors_;
   std::vector<double> tolerances_;
   std::vector<std::uint16_t> diagonals_;
 };

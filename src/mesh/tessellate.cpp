@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
+#include <stdexcept>
 
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/splines.hpp>
@@ -85,7 +87,14 @@ Status fill_mesh(const MeshPlan<T>& plan, const MeshOptions& options, std::size_
 template <typename T, typename Make>
 MeshPlan<T> planned(const Make& make) noexcept {
   const DefaultFpEnvironment environment;
-  return attempt<MeshPlan<T>>(make);
+  RateFault fault; // which is all that a plan has beside its report if it is refused
+  MeshPlan<T> plan = attempt<MeshPlan<T>>([&](MeshPlan<T>& made) {
+    const Status status = make(made);
+    fault = made.fault;
+    return status;
+  });
+  plan.fault = fault;
+  return plan;
 }
 template <typename T, typename Make>
 Mesh<T> tessellated(const MeshOptions& options, const Make& make) noexcept {
@@ -185,6 +194,28 @@ MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets, const MeshOptions& o
 }
 
 template <typename T, typename S>
+Report plan_again(std::span<const ControlNets<S>> nets, const MeshOptions& options,
+                  MeshPlan<T>& plan) noexcept try {
+  const detail::DefaultFpEnvironment environment;
+  plan.report = {};
+  plan.fault = {};
+  plan.layout = {};
+  plan.deviation = 0;
+  if (!plan.patches.empty() || detail::patches_of(nets) != plan.set.size()) {
+    plan.report.status = Status::bad_topology;
+  } else if (plan.errors.size() != plan.set.size()) {
+    plan.report.status = Status::bad_rates;
+  } else {
+    plan.report.status = detail::MeshPlanner<T, S>(nets, {}, options, plan).run_again();
+  }
+  return plan.report;
+} catch (const std::bad_alloc&) {
+  return plan.report = {Status::out_of_memory};
+} catch (const std::length_error&) {
+  return plan.report = {Status::size_overflow};
+}
+
+template <typename T, typename S>
 Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
   return detail::tessellated<T>(options, [&](std::size_t& given) {
     MeshPlan<T> plan = plan_mesh<T>(nets, options);
@@ -211,6 +242,8 @@ Mesh<T> tessellate(std::span<const SplineSurface<S>> surfaces, const MeshOptions
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
   template SIMDBEZIER_API MeshPlan<T> plan_mesh<T, S>(std::span<const ControlNets<S>>,             \
                                                       const MeshOptions&) noexcept;                \
+  template SIMDBEZIER_API Report plan_again<T, S>(std::span<const ControlNets<S>>,                 \
+                                                  const MeshOptions&, MeshPlan<T>&) noexcept;      \
   template SIMDBEZIER_API Mesh<T> tessellate<T, S>(std::span<const ControlNets<S>>,                \
                                                    const MeshOptions&) noexcept;                   \
   template SIMDBEZIER_API MeshPlan<T> plan_mesh<T, S>(std::span<const SplineSurface<S>>,           \

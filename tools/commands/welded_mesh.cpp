@@ -12,188 +12,110 @@
 #include <tools/patches/patch_box.hpp>
 #include <tools/patches/patch_rounding.hpp>
 #include <tools/process/failure.hpp>
-#include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
 
-namespace {
-
-template <typename T>
-std::span<const ControlNets<T>> views(const PatchNets<T>& nets) {
-  return nets.nets;
-}
-
-// Frees the object's memory, which assigning an empty one might keep.
-template <typename T>
-void set_free(T& object) {
-  const T freed = std::exchange(object, T());
-}
-
-} // namespace
-
 template <typename T>
 WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats& stats)
-    : arguments_(arguments), stats_(stats), patches_(part.file.count), own_(part.own),
-      name_(part.file.name), box_(part.box), numbers_(std::move(part.numbers)),
-      numbered_(part.patches), faces_(arguments), places_(arguments.mesh) {
-  stats_.patches = own_.count;
-  {
-    const Stopwatch watch(stats_.seconds.pack);
-    take_points(std::move(part.file));
-  }
-  {
-    const Stopwatch watch(stats_.seconds.topology);
-    join();
-  }
-  {
-    const Stopwatch watch(stats_.seconds.rates);
-    choose_cells();
-  }
-  {
-    const Stopwatch watch(stats_.seconds.topology);
-    lay_out();
-  }
-  {
-    const Stopwatch watch(stats_.seconds.pack);
-    pack_all();
-  }
+    : arguments_(arguments), stats_(stats), own_(part.own), name_(part.file.name), box_(part.box),
+      numbers_(std::move(part.numbers)), numbered_(part.patches), faces_(arguments),
+      places_(arguments.mesh) {
+  plan(part);
   const Stopwatch watch(stats_.seconds.topology);
-  if (arguments_.mesh.crease) {
-    check(split_creases(set_, layout_, *arguments_.mesh.crease, layout_,
-                        {.threads = arguments_.threads}));
+  find_links(part.lent);
+  faces_.count(plan_.layout, own_);
+  tell_stats();
+}
+
+template <typename T>
+void WeldedMesh<T>::plan(ModelPart& part) {
+  PatchNets<T> nets;
+  std::vector<double> errors;
+  {
+    const Stopwatch watch(stats_.seconds.pack);
+    expect_no_point<T>(box_, name_);
+    errors = point_errors<T>(part.file); // a patch that T cannot hold is named by its place
+    nets = part.file.template nets<T>();
+    if (!nets.in_file) {
+      part.file = {};
+    }
   }
-  if (arguments_.mesh.parameters) {
-    check(split_parameters(layout_, layout_));
+  stats_.diagonal = diagonal_of(box_);
+  MeshOptions options = mesh_options(arguments_, {name_, stats_.diagonal, is_far(box_), numbers_});
+  options.rates.errors = errors;
+  plan_with_storage(nets.nets, options);
+  part.file = {};
+  if (!plan_.patches.empty()) { // of a whole model
+    own_ = {0, plan_.patches.size()};
+    for (std::uint32_t& patch : plan_.patches) {
+      patch = numbers_.empty() ? patch : numbers_[patch];
+    }
+    numbers_ = plan_.patches;
   }
-  const std::size_t end = own_.first + own_.count;
-  if (own_.first > 0 || end < patches_) {
-    MeshLinks found = find_mesh_links(layout_, own_, numbers_, part.lent);
+  // Nothing is claimed to be exact, even if no rounding can be found.
+  const auto own = std::span(plan_.deviations).subspan(own_.first, own_.count);
+  deviation_ = std::max(std::ranges::max(own), std::numeric_limits<double>::min());
+}
+
+// Distances first leave no room for what storing adds, which they usually need not.
+template <typename T>
+void WeldedMesh<T>::plan_with_storage(std::span<const ControlNets<T>> nets, MeshOptions options) {
+  const PlannedModel model{name_, stats_.diagonal, is_far(box_), numbers_};
+  plan_ = plan_mesh<T>(nets, options);
+  check_plan(plan_.report, plan_.fault, arguments_, model, 0);
+  const double stored = storage_error<T>(arguments_.mesh.format, contents());
+  if (!arguments_.mesh.adaptive() || stored == 0) {
+    return;
+  }
+  const std::vector<double> room = tolerances_without(stored, nets, options);
+  const auto leaves_room = [&](std::size_t k) {
+    return plan_.deviations[k] <= room[plan_.patches.empty() ? k : plan_.patches[k]];
+  };
+  std::size_t patches = 0;
+  while (patches < plan_.deviations.size() && leaves_room(patches)) {
+    ++patches;
+  }
+  if (patches == plan_.deviations.size()) {
+    return;
+  }
+  options.rates.tolerances = room;
+  plan_ = plan_mesh<T>(nets, options);
+  RateFault fault = plan_.fault;
+  if (fault.limit != RateLimit::none) {
+    fault.tolerance = tolerances_without(0, nets, options)[plan_.report.item];
+  }
+  check_plan(plan_.report, fault, arguments_, model, stored);
+}
+
+// Numbers of vertices that other parts share.
+template <typename T>
+void WeldedMesh<T>::find_links(const std::vector<ModelPart::Lent>& lent) {
+  if (own_.first > 0 || own_.first + own_.count < plan_.set.size()) {
+    MeshLinks found = find_mesh_links(plan_.layout, own_, numbers_, lent);
     links_ = std::move(found.links);
     faces_.name_before(std::move(found.before));
   }
-  faces_.count(layout_, own_);
+}
+
+template <typename T>
+void WeldedMesh<T>::tell_stats() {
+  stats_.seconds.pack += plan_.seconds.pack;
+  stats_.seconds.topology += plan_.seconds.topology;
+  stats_.seconds.rates += plan_.seconds.rates;
+  stats_.patches = own_.count;
+  stats_.joined = plan_.topology.counts(own_);
+  if (arguments_.mesh.drop_repeated) {
+    stats_.joined->repeated_patches += plan_.counts.repeated_patches;
+  }
+  if (arguments_.mesh.split_edges) {
+    stats_.splits = plan_.splits;
+  }
+  stats_.open_edges = stats_.joined->open_edges;
+  stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
   const MeshContents mesh = contents();
   stats_.vertices = stats_.samples = mesh.vertices;
   stats_.triangles = 2 * mesh.faces - (mesh.corners == 3 ? mesh.faces : mesh.among_quads);
   stats_.deviation = stated_deviation<T>(arguments_.mesh.format, mesh);
-}
-
-// A patch that T cannot hold is found here, where its place in the file is still known; what
-// rounding does to every patch is found as well.
-template <typename T>
-void WeldedMesh<T>::take_points(PatchFile file) {
-  stats_.diagonal = diagonal_of(box_);
-  expect_no_point<T>(box_, name_);
-  errors_.resize(patches_);
-  for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
-    const std::size_t count = std::min(kBlockPatches, patches_ - first);
-    std::ranges::copy(rounding_errors<T>(file, first, count),
-                      errors_.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-  file_ = std::make_unique<PatchFile>(std::move(file));
-  nets_ = file_->template nets<T>();
-  if (!nets_.in_file) {
-    file_.reset();
-  }
-}
-
-template <typename T>
-void WeldedMesh<T>::join() {
-  const MeshArguments& mesh = arguments_.mesh;
-  std::size_t repeated = 0;
-  if (mesh.drop_repeated) {
-    find_edges(false);
-    repeated = topology_.counts().repeated_patches;
-  }
-  if (repeated > 0) {
-    leave_out_repeated();
-  }
-  if (mesh.split_edges) {
-    split();
-  }
-  if (!mesh.drop_repeated || repeated > 0 || mesh.orient || mesh.split_edges) {
-    find_edges(mesh.orient);
-  }
-  stats_.joined = topology_.counts(own_);
-  stats_.joined->repeated_patches += repeated;
-  stats_.open_edges = stats_.joined->open_edges;
-  stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
-}
-
-template <typename T>
-void WeldedMesh<T>::split() {
-  SplitOptions how;
-  how.snap = arguments_.mesh.snap;
-  check(split_edges(views(nets_), pieces_, how, {.threads = arguments_.threads}));
-  nets_.nets = pieces_.nets;
-  patches_ = own_.count = pieces_.pieces.size(); // of a whole model
-  stats_.splits = pieces_.counts;
-  std::vector<double> errors;
-  std::vector<std::uint32_t> numbers;
-  for (const PatchPiece& piece : pieces_.pieces) {
-    errors.push_back(errors_[piece.patch] + piece.error);
-    numbers.push_back(numbers_.empty() ? piece.patch : numbers_[piece.patch]);
-  }
-  errors_ = std::move(errors);
-  numbers_ = std::move(numbers);
-}
-
-template <typename T>
-void WeldedMesh<T>::leave_out_repeated() {
-  DistinctNets<T> distinct;
-  check(find_distinct_nets(views(nets_), topology_, distinct));
-  nets_.nets = std::move(distinct.nets);
-  numbers_ = std::move(distinct.patches);
-  patches_ = own_.count = stats_.patches = numbers_.size(); // of a whole model
-  std::ranges::transform(numbers_, errors_.begin(), [&](std::uint32_t n) { return errors_[n]; });
-  errors_.resize(patches_);
-}
-
-template <typename T>
-void WeldedMesh<T>::find_edges(bool orient) {
-  TopologyOptions how;
-  how.orient = orient;
-  how.flip = arguments_.mesh.flip;
-  how.snap = std::max(arguments_.mesh.snap, pieces_.snap);
-  how.point_size = arguments_.mesh.point_size;
-  const Status status =
-      find_topology(views(nets_), topology_, how, {.threads = arguments_.threads});
-  if (status == Status::not_orientable) {
-    bad_input("--orient: expected patches that can be turned to agree with their neighbours, found "
-              "a surface of one side in " +
-              name_);
-  }
-  check(status);
-}
-
-template <typename T>
-void WeldedMesh<T>::choose_cells() {
-  rates_ = choose_mesh_rates<T>({views(nets_), topology_, errors_, own_, stats_.diagonal,
-                                 storage_error<T>(arguments_.mesh.format, contents()), is_far(box_),
-                                 name_, numbers_},
-                                arguments_);
-}
-
-template <typename T>
-void WeldedMesh<T>::lay_out() {
-  const Status status = lay_out_mesh(topology_, {rates_.cells_u, rates_.cells_v, rates_.diagonals},
-                                     layout_, {.threads = arguments_.threads});
-  if (status == Status::size_overflow) {
-    bad_input(resolution_options(arguments_.mesh) + ": expected at most " +
-              std::to_string(kMostMeshVertices) + " vertices, found more");
-  }
-  check(status);
-  deviation_ = rates_.deviation;
-  set_free(rates_); // the layout has its own
-}
-
-template <typename T>
-void WeldedMesh<T>::pack_all() {
-  check(pack(views(nets_), set_, {.threads = arguments_.threads}).status);
-  set_free(nets_);
-  pieces_.nets.clear();
-  set_free(pieces_.memory);
-  file_.reset();
 }
 
 template <typename T>
@@ -219,7 +141,7 @@ MeshContents WeldedMesh<T>::contents() const {
   const MeshArguments& mesh = arguments_.mesh;
   MeshContents contents;
   contents.vertices =
-      layout_.first_vertex(own_.first + own_.count) - layout_.first_vertex(own_.first);
+      plan_.layout.first_vertex(own_.first + own_.count) - plan_.layout.first_vertex(own_.first);
   contents.faces = faces_.count();
   contents.corners = mesh.quads ? 4 : 3;
   contents.among_quads = faces_.among_quads();
@@ -236,7 +158,7 @@ MeshContents WeldedMesh<T>::contents() const {
   // box. What no longer fits a float is judged by the control points.
   const double largest = largest_coordinate(box_);
   const double most = std::max<double>(std::numeric_limits<float>::max(), largest);
-  const auto own_errors = std::span(errors_).subspan(own_.first, own_.count);
+  const auto own_errors = std::span(plan_.errors).subspan(own_.first, own_.count);
   const double margin = std::min(std::ranges::max(own_errors), largest);
   contents.box = box_;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -251,8 +173,8 @@ MeshContents WeldedMesh<T>::contents() const {
 template <typename T>
 SetRange WeldedMesh<T>::block_from(std::size_t patch) const {
   const auto size = [&](std::size_t end) {
-    return layout_.first_vertex(end) - layout_.first_vertex(patch) +
-           (layout_.first_triangle(end) - layout_.first_triangle(patch)) / 2;
+    return plan_.layout.first_vertex(end) - plan_.layout.first_vertex(patch) +
+           (plan_.layout.first_triangle(end) - plan_.layout.first_triangle(patch)) / 2;
   };
   const std::size_t last = own_.first + own_.count;
   std::size_t end = std::min(patch + 1, last);
@@ -293,7 +215,7 @@ void WeldedMesh<T>::write_vertices(SetRange block, MeshWriter<T>& writer, StageS
 template <typename T>
 void WeldedMesh<T>::evaluate(SetRange block, std::size_t stride, StageSeconds& seconds) {
   const std::size_t vertices =
-      layout_.first_vertex(block.first + block.count) - layout_.first_vertex(block.first);
+      plan_.layout.first_vertex(block.first + block.count) - plan_.layout.first_vertex(block.first);
   values_.resize(vertices * stride);
   MeshOutputs<T> out;
   out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
@@ -304,9 +226,9 @@ void WeldedMesh<T>::evaluate(SetRange block, std::size_t stride, StageSeconds& s
   const Options options{.threads = arguments_.threads};
   if (vertices > 0) {
     const Stopwatch watch(seconds.evaluate);
-    check(evaluate_mesh(set_, layout_, out, options, block));
-    places_.find_curvatures(set_, topology_, options);
-    places_.find_in_file(pieces_.pieces, numbers_);
+    check(evaluate_mesh(plan_.set, plan_.layout, out, options, block));
+    places_.find_curvatures(plan_.set, plan_.topology, options);
+    places_.find_in_file(plan_.pieces, numbers_);
   }
 }
 
@@ -315,7 +237,7 @@ void WeldedMesh<T>::write_faces(SetRange block, MeshWriter<T>& writer, StageSeco
   std::span<const std::uint32_t> corners;
   {
     const Stopwatch watch(seconds.topology);
-    corners = faces_.corners(layout_, block);
+    corners = faces_.corners(plan_.layout, block);
   }
   const Stopwatch watch(seconds.write);
   writer.faces(corners);

@@ -8,7 +8,7 @@
 #include <simdbezier/simdbezier.hpp>
 #include <tools/commands/arguments.hpp>
 #include <tools/commands/mesh_faces.hpp>
-#include <tools/commands/mesh_rates.hpp>
+#include <tools/commands/mesh_plan.hpp>
 #include <tools/commands/mesh_source.hpp>
 #include <tools/commands/vertex_places.hpp>
 #include <tools/formats/patch_file.hpp>
@@ -17,8 +17,8 @@
 
 namespace simdbezier::tools {
 
-/// Joins, chooses and numbers when it is made; vertices are computed when they are written. Takes
-/// the part, because its points are freed as soon as they are packed.
+/// Is planned when it is made; vertices are computed when they are written. Takes the part, because
+/// its points are freed as soon as the plan is made.
 ///
 /// Of a part that is not the whole model, only own patches count and are written. Vertices that
 /// earlier parts own are named by foreign(): until place() says their numbers, faces have the
@@ -41,15 +41,11 @@ public:
   [[nodiscard]] std::vector<T> foreign_values();
 
 private:
-  void take_points(PatchFile file);
+  void plan(ModelPart& part);
+  void plan_with_storage(std::span<const ControlNets<T>> nets, MeshOptions options);
+  void find_links(const std::vector<ModelPart::Lent>& lent);
+  void tell_stats();
   void evaluate(SetRange block, std::size_t stride, StageSeconds& seconds);
-  void join();
-  void split();
-  void find_edges(bool orient);
-  void leave_out_repeated();
-  void choose_cells();
-  void lay_out();
-  void pack_all();
 
   [[nodiscard]] SetRange block_from(std::size_t patch) const;
   void write_vertices(SetRange block, MeshWriter<T>& writer, StageSeconds& seconds);
@@ -57,22 +53,13 @@ private:
 
   const Arguments& arguments_;
   MeshStats& stats_;
-  std::size_t patches_ = 0; // with ghosts
-  SetRange own_;
-  std::string name_;                // the file's, for messages
-  MeshBox box_;                     // the model's
-  double deviation_ = 0;            // certified
-  std::unique_ptr<PatchFile> file_; // whose memory nets_ may refer to
-  PatchNets<T> nets_;
-  std::vector<double> errors_; // what rounding adds, for each patch
-  std::vector<std::uint32_t>
-      numbers_;              // of patches in the model, where these are not all of its own
-  SplitNets<T> pieces_;      // of patches that are cut, in whose memory nets_ are then
-  std::size_t numbered_ = 0; // patches in the model
-  MeshRates rates_;
-  Topology topology_;
-  MeshLayout layout_;
-  PatchSet<T> set_;
+  SetRange own_;                       // of the plan's patches
+  std::string name_;                   // the file's, for messages
+  MeshBox box_;                        // the model's
+  std::vector<std::uint32_t> numbers_; // of patches in the model, if these are not all of its own
+  std::size_t numbered_ = 0;           // patches in the model
+  MeshPlan<T> plan_;
+  double deviation_ = 0; // of own patches
   PartLinks links_;
   MeshFaces faces_;
   std::vector<T> values_;

@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   // What a shard needed goes back to the system when it is done. Otherwise the allocator comes to
   // keep ever larger pieces, between which memory is lost from shard to shard.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  // Small blocks stay: the next patches would only touch their pages again, which are cleared.
+  mallopt(M_TRIM_THRESHOLD, 16 << 20);
   int code = 1;
   try {
     code = run(argc, argv);

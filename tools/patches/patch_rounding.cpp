@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
 #include <tools/patches/library_status.hpp>
@@ -60,17 +61,14 @@ double moved_by_rounding(const ControlNets<double>& nets, std::size_t patch) {
   return moved.distance();
 }
 
-} // namespace
-
+// Adds what point_errors() are to the errors of these patches.
 template <typename T>
-std::vector<double> rounding_errors(const PatchFile& file, std::size_t first, std::size_t count) {
-  std::vector<double> errors(count);
-  check(position_errors(pack_patches<T>(file, first, count), errors));
+void add_point_errors(const PatchFile& file, std::size_t first, std::span<double> errors) {
   for (double& error : errors) {
     error += file.moved_error + file.cut_error;
   }
   if constexpr (std::is_same_v<T, float>) { // and otherwise points are not rounded
-    const PatchNets<double> block = file.nets<double>(first, count);
+    const PatchNets<double> block = file.nets<double>(first, errors.size());
     std::size_t k = 0;
     for (const ControlNets<double>& nets : block.nets) {
       for (std::size_t patch = 0; patch < nets.count; ++patch, ++k) {
@@ -78,9 +76,32 @@ std::vector<double> rounding_errors(const PatchFile& file, std::size_t first, st
       }
     }
   }
+}
+
+} // namespace
+
+template <typename T>
+std::vector<double> point_errors(const PatchFile& file) {
+  std::vector<double> errors(file.count);
+  for (std::size_t first = 0; first < file.count; first += kBlockPatches) {
+    const auto block =
+        std::span(errors).subspan(first, std::min(kBlockPatches, file.count - first));
+    static_cast<void>(pack_patches<T>(file, first, block.size()));
+    add_point_errors<T>(file, first, block);
+  }
   return errors;
 }
 
+template <typename T>
+std::vector<double> rounding_errors(const PatchFile& file, std::size_t first, std::size_t count) {
+  std::vector<double> errors(count);
+  check(position_errors(pack_patches<T>(file, first, count), errors));
+  add_point_errors<T>(file, first, errors);
+  return errors;
+}
+
+template std::vector<double> point_errors<float>(const PatchFile&);
+template std::vector<double> point_errors<double>(const PatchFile&);
 template std::vector<double> rounding_errors<float>(const PatchFile&, std::size_t, std::size_t);
 template std::vector<double> rounding_errors<double>(const PatchFile&, std::size_t, std::size_t);
 

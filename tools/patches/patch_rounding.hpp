@@ -8,9 +8,12 @@
 
 namespace simdbezier::tools {
 
-/// Returns for each of these patches a bound on the distance between a position that is evaluated
-/// in T and the surface that the file describes, whose control points are moved (move_patches())
-/// and rounded to T first. Throws Failure where T cannot hold one of them.
+/// Returns for every patch a bound on the distance between the surface that the file describes and
+/// the one of its control points, which are moved (move_patches()) and rounded to T. Throws Failure
+/// that names the place where T cannot hold one of them.
+template <typename T>
+[[nodiscard]] std::vector<double> point_errors(const PatchFile& file);
+/// The same for some patches and for positions, to which evaluation in T adds its errors.
 template <typename T>
 [[nodiscard]] std::vector<double> rounding_errors(const PatchFile& file, std::size_t first,
                                                   std::size_t count);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <tools/commands/mesh_plan.hpp>
 #include <tools/commands/welded_mesh.hpp>
 #include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/patches/library_status.hpp>
@@ -103,13 +104,9 @@ private:
   tools::PatchFile file_;
   tools::MeshBox box_;
   tools::PatchNets<T> nets_;
-  std::vector<double> errors_;
-  PatchSet<T> set_;
-  Topology topology_;
-  TopologyOptions joined_; ///< how that was found
-  std::vector<double> deviations_;
+  MeshPlan<T> plan_;
+  TopologyOptions joined_; ///< how its topology was found
   std::vector<std::uint32_t> first_triangles_;
-  MeshLayout layout_;
   Room<T> vertices_;
   Room<std::uint16_t> short_indices_;
   Room<std::uint32_t> indices_;
@@ -120,10 +117,10 @@ private:
 
 template <typename T>
 TypedModel<T>::TypedModel(tools::PatchFile file)
-    : file_(std::move(file)), box_(tools::box_of(file_)),
-      errors_(tools::rounding_errors<T>(file_, 0, file_.count)) {
+    : file_(std::move(file)), box_(tools::box_of(file_)) {
+  plan_.errors = tools::rounding_errors<T>(file_, 0, file_.count);
   nets_ = file_.template nets<T>();
-  check(pack(nets(), set_, PackOptions{}).status);
+  check(pack(nets(), plan_.set, PackOptions{}).status);
   results_.patches = static_cast<double>(file_.count);
   results_.diagonal = tools::diagonal_of(box_);
   std::ranges::copy(box_.low, results_.low);
@@ -136,13 +133,12 @@ TypedModel<T>::TypedModel(tools::PatchFile file)
 template <typename T>
 void TypedModel<T>::join(const tools::MeshArguments& mesh) {
   const TopologyOptions how{.orient = mesh.orient, .flip = mesh.flip, .snap = mesh.snap};
-  if (deviations_.empty() || how.orient != joined_.orient || how.flip != joined_.flip ||
-      how.snap != joined_.snap) {
-    check(find_topology(nets(), topology_, how));
+  if (plan_.topology.data() == nullptr || how.orient != joined_.orient ||
+      how.flip != joined_.flip || how.snap != joined_.snap) {
+    check(find_topology(nets(), plan_.topology, how));
     joined_ = how;
-    deviations_.resize(file_.count);
   }
-  const TopologyCounts counts = topology_.counts();
+  const TopologyCounts counts = plan_.topology.counts();
   results_.edges = static_cast<double>(counts.edges);
   results_.open_edges = static_cast<double>(counts.open_edges);
   results_.non_manifold_edges = static_cast<double>(counts.non_manifold_edges);
@@ -150,40 +146,25 @@ void TypedModel<T>::join(const tools::MeshArguments& mesh) {
 
 template <typename T>
 void TypedModel<T>::lay_out(const tools::Arguments& arguments) {
-  const tools::MeshArguments& mesh = arguments.mesh;
-  tools::MeshRates rates = tools::choose_mesh_rates<T>({nets(),
-                                                        topology_,
-                                                        errors_,
-                                                        {0, file_.count},
-                                                        results_.diagonal,
-                                                        0,
-                                                        tools::is_far(box_),
-                                                        file_.name,
-                                                        {}},
-                                                       arguments);
-  check(lay_out_mesh(topology_, {rates.cells_u, rates.cells_v, rates.diagonals}, layout_));
-  if (mesh.crease) {
-    check(split_creases(set_, layout_, *mesh.crease, layout_));
-  }
-  if (mesh.parameters) {
-    check(split_parameters(layout_, layout_));
-  }
-  deviations_ = std::move(rates.deviations);
+  const tools::PlannedModel model{file_.name, results_.diagonal, tools::is_far(box_), {}};
+  static_cast<void>(plan_again(nets(), tools::mesh_options(arguments, model), plan_));
+  tools::check_plan(plan_.report, plan_.fault, arguments, model, 0);
   first_triangles_.resize(file_.count + 1);
   for (std::size_t patch = 0; patch <= file_.count; ++patch) {
-    first_triangles_[patch] = static_cast<std::uint32_t>(layout_.first_triangle(patch));
+    first_triangles_[patch] = static_cast<std::uint32_t>(plan_.layout.first_triangle(patch));
   }
-  results_.deviation = rates.deviation;
-  results_.vertices = static_cast<double>(layout_.size().vertices);
-  results_.triangles = static_cast<double>(layout_.size().triangles);
-  results_.deviation_data = place_of(deviations_.data());
+  // Nothing is claimed to be exact, even if no rounding can be found.
+  results_.deviation = std::max(plan_.deviation, std::numeric_limits<double>::min());
+  results_.vertices = static_cast<double>(plan_.layout.size().vertices);
+  results_.triangles = static_cast<double>(plan_.layout.size().triangles);
+  results_.deviation_data = place_of(plan_.deviations.data());
   results_.first_triangle_data = place_of(first_triangles_.data());
 }
 
 template <typename T>
 void TypedModel<T>::evaluate_vertices(const tools::MeshArguments& mesh) {
   const std::size_t stride = 3 + (mesh.normals ? 3U : 0U) + (mesh.parameters ? 2U : 0U);
-  const std::size_t vertices = layout_.size().vertices;
+  const std::size_t vertices = plan_.layout.size().vertices;
   T* const values = vertices_.for_values(product(vertices, stride));
   const auto step = static_cast<std::ptrdiff_t>(stride);
   MeshOutputs<T> out;
@@ -195,7 +176,7 @@ void TypedModel<T>::evaluate_vertices(const tools::MeshArguments& mesh) {
     out.parameters = Vectors<T>::pairs(values + stride - 2, step);
   }
   if (vertices > 0) {
-    check(evaluate_mesh(set_, layout_, out, Options{}));
+    check(evaluate_mesh(plan_.set, plan_.layout, out, Options{}));
   }
   results_.stride = static_cast<double>(stride);
   results_.vertex_data = place_of(values);
@@ -203,10 +184,10 @@ void TypedModel<T>::evaluate_vertices(const tools::MeshArguments& mesh) {
 
 template <typename T>
 void TypedModel<T>::number_triangles() {
-  const std::size_t count = product(layout_.size().triangles, 3);
+  const std::size_t count = product(plan_.layout.size().triangles, 3);
   std::uint32_t* const corners = indices_.for_values(count);
-  check(write_triangles<std::uint32_t>(layout_, {corners, count}, {}));
-  const bool few = layout_.size().vertices <= std::numeric_limits<std::uint16_t>::max();
+  check(write_triangles<std::uint32_t>(plan_.layout, {corners, count}, {}));
+  const bool few = plan_.layout.size().vertices <= std::numeric_limits<std::uint16_t>::max();
   results_.index_bytes = few ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
   results_.index_data = place_of(corners);
   if (few) { // the library's own writer of 16 bits would be more code
@@ -264,7 +245,7 @@ Outputs<T> TypedModel<T>::outputs(std::size_t samples, const SampleWish& wish) {
 template <typename T>
 void TypedModel<T>::grid(std::size_t nu, std::size_t nv, const SampleWish& wish) {
   const Outputs<T> out = outputs(product(product(file_.count, nu), nv), wish);
-  check(evaluate(set_, Grid<T>::uniform(nu, nv), out, {.watertight = wish.watertight != 0}));
+  check(evaluate(plan_.set, Grid<T>::uniform(nu, nv), out, {.watertight = wish.watertight != 0}));
 }
 
 template <typename T>
@@ -274,7 +255,7 @@ void TypedModel<T>::samples(std::span<const std::uint32_t> patches, const void* 
   const Samples<T> where{
       patches, {static_cast<const T*>(u), count}, {static_cast<const T*>(v), count}};
   const Outputs<T> out = outputs(count, wish);
-  check(evaluate(set_, where, out, {.watertight = wish.watertight != 0}));
+  check(evaluate(plan_.set, where, out, {.watertight = wish.watertight != 0}));
 }
 
 template <typename T>
