@@ -129,9 +129,8 @@ template <typename S>
 
 /// Certifies given rates: finds the best diagonals, and their bound. Determinism, allocation and
 /// overlaps are as for choose_rates(), which takes longer.
-/// rates:   cells_u and cells_v are read, from 1 to kMostSegments; diagonals and deviation are
-/// written, and
-///          undefined on an error. errors: one value a patch, or empty.
+/// rates:   cells_u and cells_v are read, from 1 to kMostSegments. diagonals and deviation are
+///          written, and undefined on an error. errors: one value a patch, or empty.
 /// Returns: as choose_rates(); bad_rates also for rates outside of that range.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report certify_rates(std::span<const ControlNets<S>> nets,
@@ -142,11 +141,12 @@ template <typename S>
 
 /// The largest number of cells in one direction for certify_grids().
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
-/// Certifies meshes whose patches stay apart: each is a grid of cells_u x cells_v cells, as
-/// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1). deviation: one
-/// value a patch, including `errors` (as many, or none). Undefined on an error. Cost:      0.3
-/// to 1.7 us a patch up to degree 5 (AVX2). Returns:   ok | the statuses of views (bad_components:
-/// not three) | non_finite_input |
+/// Certifies meshes whose patches stay apart: each patch is a grid of cells_u x cells_v cells, its
+/// vertices are numbered as evaluate() numbers samples, and diagonals run from (0,0) to (1,1).
+/// errors:    as in RateOptions. deviation: one value a patch, errors included; undefined on an
+///            error.
+/// Cost:      0.3 to 1.7 us a patch up to degree 5 (AVX2).
+/// Returns:   ok | the statuses of views (bad_components: not three) | non_finite_input |
 ///            bad_weight | bad_rates (outside of 1 to kMostGridCells, or spans that are not one
 ///            value a patch) | bad_tolerance (an error below 0 or nan) | the statuses of running.
 template <typename S>

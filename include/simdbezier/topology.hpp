@@ -133,8 +133,8 @@ template <typename S>
 /// are within TopologyOptions::snap of each other), and sides that it takes for points are points
 /// (within point_size). Meshes of such nets have no gap there. Sides that have become equal since
 /// then are not looked for. choose_rates() and certify_rates() refuse nets that do not fit.
-/// Allocation: some bytes a view. Determinism: a function of the
-///          topology and the control points. Cost: some 40 ns a patch; 1 us if snapped.
+/// Allocation: some bytes a view. Cost: some 40 ns a patch; 1 us if snapped.
+/// Determinism: a function of the topology and the control points.
 /// Returns: false also if find_topology() would refuse the nets, or memory is lacking.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API bool fits(const Topology& topology,
