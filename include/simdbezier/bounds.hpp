@@ -27,8 +27,8 @@ struct Boxes {
 };
 
 /// Finds the smallest and largest control values of each patch, projected if nets have weights. S
-/// lies in the convex hull of its control points, and so in this box. Boxes are exact; those of
-/// homogeneous nets, which divide, are opened by 4 u of each bound. Cost: reading the nets.
+/// lies in the convex hull of its control points, and so in this box. Boxes are exact, but those of
+/// homogeneous nets (quotients) are widened by 4 u of each bound. Cost: reading the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report control_boxes(const ControlNets<T>& nets,
                                                   const std::type_identity_t<Boxes<T>>& out,
@@ -37,20 +37,20 @@ template <typename T>
 /// How far tight_boxes() may subdivide.
 inline constexpr int kMostBoxLevels = 6;
 
-/// Finds closer boxes of the surface, never larger than the control boxes: the hull of the control
-/// points of 4^levels pieces, opened by a proven bound on the roundings (docs/accuracy.md). Every
-/// level cuts the distance to the surface's own box to a quarter. If weights or values come near
-/// the ends of the number range, the control box is returned.
-/// levels: 0 (control boxes) to kMostBoxLevels, else bad_grid; 2 leaves about 6 % of the excess.
+/// Finds closer boxes of the surface, never larger than the control boxes: around the control
+/// points of 4^levels pieces, widened by a proven bound on the roundings (docs/accuracy.md). Every
+/// level divides the distance to the surface's own box by four. If weights or values come near the
+/// ends of the number range, the control box is returned.
+/// levels: 0 (control boxes) to kMostBoxLevels, else bad_grid; 2 leaves about 6 % of the distance.
 /// Cost:   about 4^levels times that of split().
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report tight_boxes(const ControlNets<T>& nets, int levels,
                                                 const std::type_identity_t<Boxes<T>>& out,
                                                 const RunOptions& options = {}) noexcept;
 
-/// An upper bound on max |S(u,v) - L(u,v)| over each patch, Euclidean over all components, L being
-/// the bilinear patch of the four corner points at the same parameters. If it is below a tolerance,
-/// two triangles can replace the patch, up to their distance from L.
+/// Bounds the distance of each patch from the bilinear patch L of its four corner points: max
+/// |S(u,v) - L(u,v)|, Euclidean over all components. Two triangles are at most as far from the
+/// patch as this bound and their own distance from L together.
 /// Formula: max |P_ij - L(i/m, j/n)|; for rational nets the same at degree (m+1, n+1).
 ///          docs/accuracy.md has the proof and counts the roundings. 0 if all points are equal;
 ///          infinite if weights come near the ends of the number range or differences overflow.
@@ -100,14 +100,14 @@ template <typename T>
                                                            std::size_t curve,
                                                            Isa isa = Isa::automatic) noexcept;
 
-/// The largest position bound of any component of any patch; 0 for an empty set, infinity if `isa`
-/// cannot be resolved. Cost: at most that of error_bounds() for every patch.
+/// Finds the largest position bound of any component of any patch: 0 for an empty set, infinity if
+/// `isa` cannot be resolved. Cost: at most that of error_bounds() for every patch.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API double largest_position_bound(const PatchSet<T>& set,
                                                            Isa isa = Isa::automatic) noexcept;
 
-/// Whether every position of the batch is certified to be within `tolerance` of the exact one; for
-/// a PatchSet<float>, whether single precision is enough. Cost: as above.
+/// Whether every position of the set is certified to be within `tolerance` of the exact one. For a
+/// PatchSet<float>, this says whether single precision is enough. Cost: as above.
 template <typename T>
 [[nodiscard]] bool meets_tolerance(const PatchSet<T>& set, double tolerance,
                                    Isa isa = Isa::automatic) noexcept {

@@ -31,10 +31,10 @@ enum class Weights : std::uint8_t {
 ///
 /// Component c of point P[j][i] of patch p is
 ///     points[p * patch_stride + j * row_stride + i * point_stride + c * component_stride]
-/// with strides in elements of S; the weight is where component `components` would be. Strides may
-/// be negative; those of rows, points and components must not be 0 (else bad_stride). The default
-/// describes packed bicubic x y z triples, the order of `.bez` and `.bpt` files; packed() describes
-/// other shapes. Status names what calls say of views that they cannot read.
+/// with strides in elements of S. The weight stands where component `components` would be. Strides
+/// may be negative; those of rows, points and components must not be 0 (else bad_stride). The
+/// default describes packed bicubic x y z triples, the order of `.bez` and `.bpt` files; packed()
+/// describes other shapes. What cannot be read is refused with the statuses of views (Status).
 template <typename S>
 struct ControlNets {
   const S* points = nullptr; ///< may be null only when count is 0
@@ -91,8 +91,8 @@ inline constexpr std::size_t kPatchEdges = 4;
 /// Describes `count` control polygons of equal degree and components in the caller's memory, which
 /// is read during calls only. Component c of point P[i] of curve k is
 ///     points[k * curve_stride + i * point_stride + c * component_stride]
-/// with strides in elements of S; the weight is where component `components` would be. The default
-/// describes packed cubics of x y z triples. Refused as ControlNets are.
+/// with strides in elements of S. The weight stands where component `components` would be. The
+/// default describes packed cubics of x y z triples. Statuses are those of ControlNets.
 template <typename S>
 struct ControlCurves {
   const S* points = nullptr; ///< may be null only when count is 0

@@ -57,14 +57,14 @@ private:
 };
 
 /// Packs curves into a set, which evaluate() takes.
-/// Formula:    the coefficients of powers of X = t - 1/2; from degree 6 on, of both halves around
-///             their own middles, which are as accurate as de Casteljau's algorithm.
+/// Formula:    the coefficients of powers of X = t - 1/2; from degree 6 on, those of both halves
+///             around their own middles, as accurate as de Casteljau's algorithm.
 /// curves:     S = float or double; the memory may be freed after the call.
 /// options:    as for patches; relative_to applies to the first three components. A curve that is
 ///             to match a patch's edge must be packed with the patch's options.
 /// Numerics:   S = T = float: formed in double, else in double-double; rounded once to T. Results
 ///             depend neither on the instruction set nor on threads. -0 becomes +0.
-/// Allocation: one block; of cubics in space 19 T and 12 S a curve, 18 T of which positions read.
+/// Allocation: one block: for cubics in space 19 T and 12 S a curve. Positions read 18 T of these.
 /// Returns:    as pack() of patches; Report::item is the curve, `point` its control point i.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API Report pack(const ControlCurves<S>& curves, CurveSet<T>& set,
@@ -129,10 +129,10 @@ template <typename T>
 /// middle (upwards from t = 1/2): SampleStatus::limit. If all of them are zero, the curve is a
 /// point and the tangent zero: SampleStatus::degenerate. This is decided exactly, for the control
 /// points as given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0
-/// on a straight line or a point. Neither is ever nan for t in [0,1]. Both need 2 or 3 components.
-///
-/// Curvatures of regular samples have no bound: they are computed from the rounded d1 and d2 and
-/// divided by |d1|^3, and may have no correct digit near a cusp or on (nearly) straight curves.
+/// on a straight line or a point. For t in [0,1], tangents and curvatures are never nan. Both need
+/// 2 or 3 components. Curvatures of regular samples have no error bound: they are computed from the
+/// rounded d1 and d2 and divided by |d1|^3, and may have no correct digit near a cusp or on nearly
+/// straight curves.
 /// Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {
@@ -160,8 +160,8 @@ private:
   static_assert(std::size(kMembers) == kVectors, "every vector output has a member, in its order");
 };
 
-/// Evaluates every curve of a range on one grid. error_bounds() has the accuracy.
-/// Options::watertight has no effect, since exact ends cost nothing.
+/// Evaluates every curve of a range on one grid. error_bounds() certifies the accuracy.
+/// Options::watertight has no effect, because ends are always exact.
 /// Formula: in X = t - 1/2, like the edges of patches: even and odd parts in degrees 3, 4 and 5,
 ///          otherwise Horner's rule and synthetic division, `degree` multiply-adds a component,
 ///          sample and derivative; the quotient rule for rational curves.
@@ -181,10 +181,10 @@ template <typename T>
                                              const CurveOutputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Evaluates single samples, in the grid's own order of operations: if centred parameters are
-/// equal, the bits are. Runs of samples of one curve are fast. Streaming stores are used with
-/// Destination::memory only. Returns as the first call, with unequal_lengths | null_input |
-/// bad_patch_index instead of bad_grid and bad_patch_range.
+/// Evaluates single samples, by the operations of a grid: equal centred parameters give equal bits.
+/// Runs of samples of one curve are fast. Streaming stores are used with Destination::memory only.
+/// Returns as the first call, but unequal_lengths | null_input | bad_patch_index instead of
+/// bad_grid and bad_patch_range.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveSamples<T>& samples,
                                              const CurveOutputs<T>& out,

@@ -5,7 +5,7 @@
 //   options     how the call runs (options.hpp)
 //
 // evaluate_tiles() hands results to a function, and evaluate_derivatives() computes derivatives of
-// any order. curves.hpp has the same calls for curves.
+// any order. curves.hpp contains the same calls for curves.
 //
 // Constraints that hold for every call
 //   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial (Parameters says how
@@ -56,16 +56,16 @@ template <typename T>
                                              const Options& options = {}) noexcept;
 
 /// Evaluates every patch of a range on its own grid, with the bits of the call above on each patch
-/// alone. Threads share samples, also the rows of a dense patch. Outputs overlap if their ranges
-/// from index 0 to the last sample do. Allocation: 8 bytes a patch and scratch per thread. Also
-/// returns null_input | unequal_lengths | bad_grid | bad_offsets | bad_patch_range.
+/// alone. Threads share samples, even the rows of one patch. Outputs overlap if their ranges from
+/// index 0 to the last sample do. Allocation: 8 bytes a patch and scratch per thread. Also returns
+/// null_input | unequal_lengths | bad_grid | bad_offsets | bad_patch_range.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const PatchGrids& grids,
                                              const Outputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Evaluates single samples, in the grid's own order of operations: if centred parameters are
-/// equal, the bits are. Also returns unequal_lengths | null_input | bad_patch_index.
+/// Evaluates single samples, by the operations of a grid: equal centred parameters give equal bits.
+/// Also returns unequal_lengths | null_input | bad_patch_index.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const Samples<T>& samples,
                                              const Outputs<T>& out,
@@ -74,7 +74,7 @@ template <typename T>
 // evaluate_derivatives(set, where, derivatives, options): partial derivatives of any order.
 //
 // The constraints of all calls hold here. evaluate() is the fast way to derivatives of up to the
-// second order; these have one kernel for all orders, whose cost grows with the highest.
+// second order. These calls have one kernel for all orders; its cost grows with the highest order.
 
 /// What a call is asked for: anything that converts to a span of PartialDerivative.
 template <typename T>
@@ -142,7 +142,7 @@ struct TileFormat {
 };
 
 /// Finished samples: rows [first_row, first_row + row_count) of patches [first_patch, first_patch +
-/// patch_count), patch after patch, row after row, u fastest. If there are several, they are whole.
+/// patch_count), patch after patch, row after row, u fastest. Several patches are whole patches.
 template <typename T>
 struct Tile {
   std::size_t first_patch = 0; ///< index in the set
@@ -195,9 +195,9 @@ private:
 };
 
 /// Evaluates every patch of a range on one grid, tile by tile, and hands each tile to `function` on
-/// the thread that made it, so that it is read from that thread's cache. Every sample arrives once;
-/// each worker's tiles ascend, the order between workers is not fixed. Values are those of
-/// evaluate(), bit for bit. Options::destination has no meaning. Allocation: one tile and its
+/// the thread that made it, so that it is read from that thread's cache. Every sample arrives once.
+/// The tiles of one worker ascend; those of several come in any order. Values are those of
+/// evaluate(), bit for bit. Options::destination has no effect. Allocation: one tile and its
 /// staging a thread. Returns ok | null_output (the format wants no vector and no curvature) |
 /// bad_components | bad_grid | bad_patch_range | size_overflow | the statuses of running. On an
 /// error no tile was handed out.

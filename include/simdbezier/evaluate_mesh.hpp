@@ -4,8 +4,8 @@
 //     lay_out_mesh(topology, rates, layout);
 //     evaluate_mesh(set, layout, outputs);   write_triangles(layout, triangles);
 //
-// mesh.hpp has all of it in one call. The constraints of evaluate.hpp hold here: outputs, bits,
-// allocation, layouts, threads. A vertex's index is the one that triangles use.
+// tessellate() in mesh.hpp is all of it in one call. The constraints of evaluate.hpp hold here:
+// outputs, bits, allocation, layouts, threads. Vertices have the indices that triangles use.
 #pragma once
 
 #include <array>
@@ -45,12 +45,12 @@ struct MeshOutputs {
 ///             normals disagree with the first one's along the edge and it is not turned. If the
 ///             sum is shorter than 0.001 of the number of normals, the first normal stays. On edges
 ///             of more than two sides, all sides count.
-/// Order:      other numbers for the same patches leave positions as they are if control points are
-///             equal, and normals at inner points and on edges of one side or two; other normals
-///             may differ by the rounding of their sum. The lowest patch decides at edges whose
-///             sides disagree (TopologyCounts::turned_edges) and in their corners, and for sums
-///             that are too short: docs/tessellation.md.
-/// Creases:    split_creases() gives such a vertex several numbers, split_parameters() one a patch.
+/// Order:      if the same patches get other numbers, these stay as they are: positions, if control
+///             points are equal; normals at inner points, and on edges of one side or two. Other
+///             normals may change by the rounding of their sum. The lowest patch decides if sides
+///             of an edge disagree (TopologyCounts::turned_edges), also in the edge's corners, and
+///             if a sum is too short: docs/tessellation.md.
+/// Creases:    split_creases() gives a vertex several numbers, split_parameters() one a patch.
 /// Returns:    ok | the statuses of outputs (bad_components: not three) and of running |
 ///             unequal_lengths (set and layout have other numbers of patches) | bad_patch_range.
 /// Allocation: scratch per thread, which grows with the most vertices on one patch's boundary.
@@ -87,12 +87,12 @@ template <typename T>
                                                   double degrees, MeshLayout& split,
                                                   const Options& options = {}) noexcept;
 
-/// Gives each side and corner vertices of its own, for its own u, v, with the position and merged
-/// normal of the one in `layout`, bit for bit. Sides that are points keep one vertex a patch.
-/// Triangles stay as they are; in patches with one row of cells, two neighbouring sides of which
-/// are one edge, some appear that have two vertices in one place.
-/// layout:  of lay_out_mesh() or split_creases(), which may also come after it. `split`, which
-///          keeps the layout alive, may be the same object.
+/// Gives each patch vertices of its own on its sides and corners, so that they can have its own u,
+/// v. Their positions and merged normals are those of the vertex in `layout`, bit for bit. A side
+/// that is a point keeps one vertex a patch. Triangles stay as they are; if a patch has one row of
+/// cells, and two neighbouring sides are one edge, some appear with two vertices in one place.
+/// layout:  of lay_out_mesh() or split_creases(), which may also be called afterwards. `split` may
+///          be the same object; it keeps the layout alive.
 /// Threads: the caller's alone. Determinism: a function of the layout. Allocation: that of the
 ///          layout once more, and 4 bytes for each vertex on an edge and side of it.
 /// Cost:    some 50 ns a patch, and 1 ns for each of these vertices.
@@ -105,7 +105,7 @@ template <typename T>
 
 /// How one output of a vertex is stored. The errors below are those of storing alone.
 enum class VertexFormat : std::uint8_t {
-  float32, ///< 4 bytes a component; none if values are float
+  float32, ///< 4 bytes a component; no error if values are float
   half,    ///< 2 bytes: 2^-11 of the value, 2^-25 below 2^-14; infinite above 65 504
   unorm16, ///< 2 bytes: 0 to 65 535. Positions: low + step q, off by step / 2 at most a component,
            ///< in a box with one step for all axes. Parameters: q / 65 535.
@@ -138,8 +138,8 @@ struct FormattedOutput {
 };
 
 /// A box and its step, for positions as unorm16 or snorm16: position = low + step q. All axes have
-/// one step, since different scales would turn normals; a whole model has one box, so that edges
-/// shared with other meshes of it stay shared.
+/// one step, because different scales would turn normals. Meshes of one model should have one box:
+/// edges that they share then stay shared.
 struct QuantisationBox {
   std::array<double, 3> low = {0, 0, 0};
   double step = 0;

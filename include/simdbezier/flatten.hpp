@@ -27,7 +27,7 @@ struct FlattenOptions {
   std::uint32_t most_points = kMostPolylinePoints; ///< larger numbers count as this one
 };
 
-/// Upper bounds on the distance of evaluated points of each curve from the exact ones: the norm of
+/// Bounds the distance of evaluated points of each curve from the exact ones, by the norm of
 /// error_bounds(). out: one value a curve. Allocation: none.
 /// Returns ok | output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
@@ -39,12 +39,12 @@ template <typename T>
 /// Formula:     n segments deviate by at most max |C''| / (8 n^2), and max |C''| is at most degree
 ///              (degree - 1) times the largest second difference of control points.
 ///              docs/tessellation.md has the proof and the form for weights. If weights are more
-///              than 4.5-fold apart, fewer segments are taken if the distance of point sets is
-///              within the tolerance: few, not always the fewest.
+///              than 4.5-fold apart, the distance of point sets may allow fewer segments. These are
+///              then taken: few, not always the fewest.
 /// points:      one value a curve, of any components. deviation: the certified distance, errors
 ///              included; one value a curve, or empty. Both are undefined on an error.
 /// Determinism: the same on all machines, for any number of threads.
-/// Allocation:  none, but for some control polygons per thread if weights are so far apart.
+/// Allocation:  none, except some control polygons per thread if weights are so far apart.
 /// Cost:        some 0.1 us a cubic.
 /// Returns:     ok | the statuses of views | non_finite_input | bad_weight | unequal_lengths (spans
 ///              that are not one value a curve) | bad_tolerance (not above zero, or not above the

@@ -22,11 +22,11 @@
 
 namespace simdbezier {
 
-/// What a mesh is to be like. How fine it is has to be said: by `rates`, by a share, by pixels, or
-/// by a grid. If several are given, all are kept, except beside a grid.
+/// What a mesh shall be like. At least one of the first members has to say how fine it is. The mesh
+/// keeps all that are given, except that a grid (nu, nv) excludes all others (bad_grid).
 struct MeshOptions {
   RateOptions rates = {}; ///< a tolerance, a longest edge, an angle
-  /// A tolerance as a share of the diagonal of the box of all control points.
+  /// The tolerance as a share of the diagonal of the box of all control points.
   double relative_tolerance = kUnlimited;
   /// The most pixels that the mesh may be off in a picture; needs a camera.
   double pixels = kUnlimited;
@@ -36,12 +36,12 @@ struct MeshOptions {
   std::uint32_t nv = 0;
 
   TopologyOptions topology = {}; ///< which edges are one, and which way patches face
-  /// Cuts patches at corners of others that lie on their open sides: see split_edges(), with
-  /// TopologyOptions::snap and at least the distance given there.
+  /// Cuts patches at corners of others that lie on their open sides, as split_edges() does with
+  /// topology.snap. Edges are then joined within SplitNets::snap, if that is larger.
   bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  double crease_degrees = kUnlimited; ///< the angle of split_creases(), above 0
+  double crease_degrees = kUnlimited; ///< see split_creases(); above 0. Unlimited: nothing is split
   bool share_vertices = true;         ///< false: no vertex is that of two patches
 
   bool normals = true;
@@ -99,7 +99,7 @@ struct MeshPlan {
   std::vector<double> errors;     ///< how far vertices of each patch of the set may be off
   std::vector<double> deviations; ///< certified, of each patch of the set, errors included
   double deviation = 0;           ///< the largest of them
-  double diagonal = 0;            ///< the length of that of the box of all control points
+  double diagonal = 0;            ///< of the box of all control points
   PlanSeconds seconds;
 
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(report); }
@@ -114,7 +114,7 @@ struct Mesh {
   std::vector<std::array<T, 2>> parameters;
   std::vector<std::uint32_t> patches; ///< each vertex's patch, by its number among those given
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Instead of `triangles`, if they were asked for and numbers fit.
+  /// Instead of `triangles`, if MeshOptions::short_indices asks for them and the numbers fit.
   std::vector<std::array<std::uint16_t, 3>> short_triangles;
   /// The certified largest distance between mesh and surface, rounding included.
   double deviation = 0;
@@ -181,8 +181,8 @@ Report plan_again(const ControlNets<S>& nets, const MeshOptions& options,
   return plan_again<T>(std::span<const ControlNets<S>>(&nets, 1), options, plan);
 }
 
-/// The same if no type is named: tessellate(nets, options) has the number type of the nets. The
-/// integer has no meaning; it keeps these from taking part if a type is named.
+/// The same if no type is named: the mesh has the number type of the nets. The integer has no
+/// meaning; it excludes these overloads if a type is named.
 template <int = 0, typename S>
 [[nodiscard]] MeshPlan<S> plan_mesh(std::span<const ControlNets<S>> nets,
                                     const MeshOptions& options) noexcept {

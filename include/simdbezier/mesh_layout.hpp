@@ -42,7 +42,7 @@ struct MeshSize {
   std::size_t triangles = 0;
 };
 
-/// Stands for a vertex that there is none of.
+/// Stands for a vertex that does not exist.
 inline constexpr std::uint32_t kNoLayoutVertex = 0xffffffff;
 
 /// The numbering of a mesh's vertices. Immutable; copies share it.
@@ -82,9 +82,9 @@ private:
 /// Raises small rates, by as little as needed, if the mesh would otherwise contain two triangles on
 /// the same three vertices, an edge shared by more than two triangles, or a cell whose corners
 /// require different diagonals. Between opposite sides that are points there are then at least two
-/// cells, and three if a third side is a point, too. Other rates stay, also those of patches that
-/// repeat an earlier one (their triangles coincide with its own) or have two neighbouring sides
-/// that are one edge (more cells would not help).
+/// cells, and three if a third side is a point, too. Other rates stay, even those of patches that
+/// repeat an earlier one, whose triangles coincide, and of patches two neighbouring sides of which
+/// are one edge, because more cells would not help.
 /// cells_u, cells_v: one value a patch, 1 to kMostSegments; undefined after out_of_memory.
 /// raised:  the number of patches that changed.
 /// Threads: the caller's alone. Determinism: a function of the topology and the rates.
@@ -123,7 +123,7 @@ private:
 //                and unsupported_isa (of triangles, as resolve_isa()).
 //   Allocation   scratch per thread, and 8 to 24 bytes a patch for sizes not in the layout.
 //   Determinism  a function of the layout. Spans may not overlap each other, which is not checked.
-//   Cost         O(cells). A size takes about as long as what it is for.
+//   Cost         O(cells). Counting takes about as long as writing.
 
 /// Writes three numbers a triangle; MeshLayout::size() says how many triangles there are.
 /// options: Destination::automatic streams numbers that take more than half of the last-level
@@ -204,20 +204,20 @@ struct ClusterOutputs {
 //
 // A part consists of patches of its own and of ghosts: all other patches that have a corner in a
 // place where an own one has a corner. Together, in the order of the whole model, they are a model
-// for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(). All that these find
-// for own patches is what the whole model would give, bit for bit, except the numbers of vertices,
-// which begin at 0 in each part. The first number of a part in the whole mesh is the number of
-// vertices that own patches of earlier parts own. Vertices that ghosts before its own patches own
-// are numbered by the part that these belong to, which tells where they begin (PatchVertices).
+// for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(). For own patches these
+// give what the whole model would give, bit for bit, except that vertices are numbered from 0 in
+// each part. In the whole mesh, a part's numbers begin at the number of vertices that own patches
+// of earlier parts own. Ghosts before the own patches belong to such a part, which tells where
+// their vertices begin (PatchVertices).
 //
-// Rates depend on a patch alone, except those of entangled ones (Topology::is_entangled()), and on
-// where the topology forces a diagonal. Both are known of patches all of whose neighbours are
-// there. Those of ghosts come from the part that they belong to, or follow if ghosts of ghosts, and
-// those of entangled ones, are part of the model as well.
+// Rates depend on the patch and on diagonals that the topology forces; those of entangled patches
+// (Topology::is_entangled()) depend on neighbours, too. A part can find both for patches of which
+// it contains all neighbours. Rates of its ghosts come from their own part; or the part contains
+// the ghosts of its ghosts, and of entangled patches, as well.
 
 /// Keys by which corners and edges of patches in different memories are compared.
 struct PatchKeys {
-  /// Of each corner, numbered 2 v + u: equal for points in one place, which are divided by weights.
+  /// Of each corner, numbered 2 v + u: equal for points in one place, after division by weights.
   std::uint64_t corners[4] = {};
   /// Of each PatchEdge: equal for edges that find_adjacency() takes for one.
   std::uint64_t edges[4] = {};
@@ -227,7 +227,7 @@ struct PatchKeys {
 };
 
 /// Finds the keys of all patches. Different places and edges hardly ever have equal keys, unless
-/// they are made to; whoever must be sure compares control points.
+/// somebody makes them so: to be sure, compare control points.
 /// keys:        one value a patch, in the order of all views.
 /// Allocation:  some bytes a view. Cost: some 40 ns a patch.
 /// Determinism: a function of the control points on all machines, but not in all versions.
@@ -260,7 +260,8 @@ struct PatchVertices {
 /// part, own: as above. first_vertex: the number of the first vertex that an own patch owns.
 /// ghosts:    what owned_vertices() told about the patches before the own ones, one value each.
 /// numbers:   one value for every vertex below part.first_vertex(own.first + own.count).
-///            kUnknownVertex: nobody told it; no own patch needs it if all ghosts are there.
+///            kUnknownVertex: it was not told. No own patch needs such a vertex if all ghosts are
+///            there.
 /// Returns:   ok | bad_patch_range | unequal_lengths (ghosts) | output_too_small. Allocation: none.
 [[nodiscard]] SIMDBEZIER_API Status number_part(const MeshLayout& part, SetRange own,
                                                 std::uint64_t first_vertex,

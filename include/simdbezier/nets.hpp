@@ -83,8 +83,8 @@ struct MutableNets {
 
 namespace detail {
 
-// Roundings of UnitParameter. They are in the library because a caller's -Ofast would make t of
-// 1 - (1 - t), and a product with 1 / n of i / n: results would have other bits.
+// Roundings of UnitParameter. They are in the library because a caller's -Ofast would replace
+// 1 - (1 - t) by t, and i / n by a product with 1 / n: results would have other bits.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API T one_less(T t) noexcept;
 template <typename T>
@@ -126,15 +126,15 @@ private:
   T complement_;
 };
 
-// Deduced from the nets alone, so that numbers may stand for parameters.
+// T is deduced from the nets alone, so that callers can pass plain numbers as parameters.
 template <typename T>
 using AtParameter = std::type_identity_t<UnitParameter<T>>;
 
 /// Cuts every patch at u: `low` is the part over [0, u], `high` the one over [u, 1], each again
 /// over [0,1], with the degrees of the input.
 /// Formula:    de Casteljau, b = (1-t) a + t b (a if a = b); the triangle's sides are the nets.
-/// Parameters: finite (else non_finite_input); outside of [0,1] they extrapolate, but not nets with
-///             weights (bad_weight), since a weight could lose its sign.
+/// Parameters: finite (else non_finite_input). Outside of [0,1] they extrapolate; nets with weights
+///             are then refused (bad_weight), because a weight could change its sign.
 /// Errors:     at most 3 degree_u u max|P| a component (u = 2^-24 or 2^-53) for parameters in
 ///             [0,1]; with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
 /// Cost:       reading and writing the nets in cache; O(degree) times that for high degrees.
@@ -191,8 +191,8 @@ template <typename T>
                                             const RunOptions& options = {}) noexcept;
 
 /// Makes the derivative patches dS/du: control points degree_u (P[j][i+1] - P[j][i]), degree_u - 1
-/// by degree_v. A direction of degree 1 keeps it: its two columns are equal, for nets have no
-/// degree 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one. Cost:
+/// by degree_v. A direction of degree 1 keeps its degree, with two equal columns, because nets have
+/// no degree 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one. Cost:
 /// about the time of reading and writing the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report hodograph_u(const ControlNets<T>& nets,

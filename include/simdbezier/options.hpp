@@ -50,13 +50,13 @@ enum class Isa : std::uint8_t {
 /// Returns ok | unknown_isa | unsupported_isa; `chosen` is written on ok only.
 [[nodiscard]] SIMDBEZIER_API Status resolve_isa(Isa requested, Isa& chosen) noexcept;
 
-/// The instruction set that ran the last call of this thread which evaluated samples or wrote
-/// triangles, whichever threads shared its work. The answer is given once: automatic stands for no
-/// such call since the last question.
+/// The instruction set that ran this thread's last call that evaluated samples or wrote triangles,
+/// whichever threads shared its work. Each answer is given once: Isa::automatic means that there
+/// was no such call since the last question.
 [[nodiscard]] SIMDBEZIER_API Isa take_executed_isa() noexcept;
 
-/// What all calls can be told: on how many threads and on which instruction set they run. Neither
-/// changes a bit of the results within a class of instruction sets (Isa).
+/// On how many threads and on which instruction set a call runs. Neither changes a bit of the
+/// results within a class of instruction sets (Isa).
 struct RunOptions {
   /// 1: the calling thread alone. Such a call starts no thread, enters no OpenMP region, and always
   /// returns. 0 or less: one thread for every 20 microseconds of estimated work, up to OpenMP's
@@ -89,7 +89,7 @@ enum class Destination : std::uint8_t {
   memory     ///< streaming stores, completed before the call returns
 };
 
-/// How a call that evaluates runs. It converts to RunOptions, whose members it has.
+/// How a call that evaluates runs. It contains the members of RunOptions, and converts to these.
 struct Options {
   int threads = 0;          ///< as in RunOptions
   Isa isa = Isa::automatic; ///< as in RunOptions

@@ -110,7 +110,7 @@ struct Values {
   [[nodiscard]] constexpr T& operator[](std::size_t sample) const noexcept { return first[sample]; }
 };
 
-/// The outputs of a surface, in the order in which vertices, files and tables have them.
+/// The outputs of a surface, in the order of vertices, files and tables.
 enum class Output : std::uint8_t {
   position,  ///< S(u,v)
   du,        ///< dS/du
@@ -129,7 +129,7 @@ inline constexpr std::size_t kOutputs = static_cast<std::size_t>(Output::status)
 
 namespace detail {
 
-/// What has to be known about an output besides its formula.
+/// What code has to know about an output besides its formula.
 struct OutputTraits {
   Output output;
   const char* name;     ///< see output_name()
@@ -166,7 +166,7 @@ static_assert(has_traits_of_all(), "every Output has a row here, in the order of
 [[nodiscard]] constexpr int derivative_order(Output output) noexcept {
   return detail::kOutputTraits[static_cast<std::size_t>(output)].derivative_order;
 }
-/// Whether an output exists for points in space alone, because a cross product is part of it.
+/// Whether an output needs points in space, because a cross product is part of it.
 [[nodiscard]] constexpr bool needs_space(Output output) noexcept {
   return detail::kOutputTraits[static_cast<std::size_t>(output)].needs_space;
 }
@@ -295,8 +295,8 @@ inline constexpr std::size_t kCurveVectorOutputs =
 
 // A derivative of any order that a call is asked for.
 
-/// The highest order in each direction. Polynomials have nothing but zeros beyond their degree;
-/// derivatives of rational patches do not end there.
+/// The highest order in each direction. Polynomials have only zeros beyond their degree; rational
+/// patches have derivatives of any order.
 inline constexpr int kMostDerivativeOrder = kMostDegree;
 
 /// One derivative that is asked for: d^(a+b) S / du^a dv^b, a = order_u, b = order_v, each from 0

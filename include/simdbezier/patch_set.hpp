@@ -65,20 +65,20 @@ private:
 
 /// How control points become coefficients. The defaults suit nets near the origin.
 struct PackOptions {
-  /// Positions are formed around an origin of each patch's (and each edge's) own, added last: one
-  /// more addition a component and sample, an error of 0.8 u max|P| instead of 2 u far from the
-  /// origin, and at most one rounding more near it. This pays if the distance from the origin is
-  /// more than about four times the size of a patch. With weights and normals in float it also
-  /// saves time beyond a hundred times the size, since most normals are uncertain there, and exact
-  /// decisions about them take ten times as long. Both sides of a shared edge need the same choice.
+  /// Each patch and each edge gets an origin of its own, which is added to positions last. Far from
+  /// 0, the error is then 0.8 u max|P| instead of 2 u max|P|; near 0 it is at most one rounding
+  /// more. The price is one addition a component and sample. This pays if the distance from 0 is
+  /// more than about four times the size of a patch. Beyond a hundred times the size it also saves
+  /// time for float normals of patches with weights: most are uncertain there, and exact decisions
+  /// about them take ten times as long. Both sides of a shared edge need the same choice.
   bool local_origin = false;
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. Use one point for all sets that share
   /// edges. Members beyond the components are ignored; others must be finite (non_finite_input).
   double relative_to[3] = {0, 0, 0};
   /// Uses the set's memory again if there is room and no copy of the set shares it: for models that
-  /// move, since new pages cost more than packing. Nobody may evaluate the set meanwhile, and after
-  /// an error it may be empty instead of as it was.
+  /// move, because new pages cost more than packing. Nobody may evaluate the set meanwhile. After
+  /// an error the set is as it was, or empty.
   bool reuse_memory = false;
   int threads = 0;          ///< as in RunOptions, to which this converts
   Isa isa = Isa::automatic; ///< as in RunOptions; results do not depend on it
@@ -87,12 +87,12 @@ struct PackOptions {
 };
 
 /// Packs the patches of control nets into a set, which evaluate() takes.
-/// Formula:    C = A P A^T, A being the basis change from Bernstein to powers of the centred
-///             parameter; edge polynomials from each edge's own control points; corners. Directions
+/// Formula:    C = A P A^T. A changes the basis from Bernstein to powers of the centred parameter;
+///             edge polynomials come from each edge's own control points; corners. Directions
 ///             of degree 6 or more are first halved. Rational patches are packed as homogeneous
 ///             ones.
 /// nets:       S = float or double; the memory may be freed after the call. A few views of many
-///             patches are best: up to 8 patches of one view cost as much as one.
+///             patches are best: a view of one patch costs as much as a view of 8.
 /// set:        patches are numbered consecutively through all nets. See also reuse_memory.
 /// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results
 ///             do not depend on the instruction set, threads or other patches. -0 becomes +0.
@@ -105,7 +105,7 @@ struct PackOptions {
 ///             memory) | unsupported_isa | out_of_memory. A wrong SIMDBEZIER_ISA is ignored. The
 ///             report names the lowest patch at fault; for a fault of whole nets, their first one.
 /// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch
-///             in space; more by the cube of the degree, and several times that in new memory.
+///             in space. It grows with the cube of the degree; new memory costs several times that.
 template <typename T, typename S>
 [[nodiscard]] Report pack(const ControlNets<S>& nets, PatchSet<T>& set,
                           const PackOptions& options = {}) noexcept;

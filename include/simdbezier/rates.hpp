@@ -15,35 +15,35 @@
 
 namespace simdbezier {
 
-/// Infinity: nothing is asked for. By its bits, because clang's -ffast-math knows no infinity.
+/// Infinity: nothing is asked for. Made from bits, because clang's -ffast-math knows no infinity.
 inline constexpr double kUnlimited = std::bit_cast<double>(std::uint64_t{0x7ff} << 52);
 
 /// How close a mesh is to be.
 struct RateOptions {
-  /// The largest distance of any point of the surface from the mesh, and back.
+  /// The largest distance of a point of the surface from the mesh, or of the mesh from the surface.
   double tolerance = kUnlimited;
-  /// One value a patch, in addition to `tolerance`; or empty.
+  /// One value a patch, or empty. If `tolerance` is given as well, the smaller one counts.
   std::span<const double> tolerances = {};
-  /// How far vertices may be from the exact ones, one value a patch; a part of the tolerance. For
-  /// choose_rates(), position_errors() of the set that will be evaluated. plan_mesh() adds these by
-  /// itself. Empty: 0.
+  /// How far vertices may be from the exact ones: one value a patch, or empty for 0. It is a part
+  /// of the tolerance. choose_rates() needs position_errors() of the set that will be evaluated;
+  /// plan_mesh() adds these by itself.
   std::span<const double> errors = {};
-  /// No row or column of cells has a longer edge than about this (the longest leg of the control
-  /// net times the degree, over the number of cells). Above 0, else bad_tolerance.
+  /// The longest edge of a cell, roughly: the longest leg of the control net times the degree, over
+  /// the number of cells, is at most this. Above 0, else bad_tolerance.
   double longest_edge = kUnlimited;
-  /// No row or column of cells turns its normal by more than about this angle from one point to
-  /// the next (the total turn of the net's normals over the number of cells). Above 0.
+  /// The largest angle between the normals at both ends of an edge of a cell, roughly: the total
+  /// turn of the net's normals, over the number of cells, is at most this. Above 0.
   double normal_degrees = kUnlimited;
   std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
-  /// For views and models that move: CertifiedRates hold the rates of the frame before, or 0.
-  /// Patches keep these if they hold and have at most so many times the cells that would be chosen,
-  /// so that rates and triangles change seldom. Below 1, or nan: none are kept or read, as by
-  /// plan_mesh(), which has no frame before.
+  /// For views and models that move: on entry, CertifiedRates contain the rates of the frame
+  /// before, or 0. A patch keeps them if they are within its tolerance and make at most `keep`
+  /// times as many cells as would be chosen, so that rates change seldom. Below 1, or nan: no rates
+  /// are read or kept. plan_mesh() ignores this member.
   double keep = 0;
 };
 
-/// A pinhole camera, unless it is orthographic: a point that is one unit away along the direction
-/// and x units off that axis is seen x focal_length pixels from the middle of the picture.
+/// A pinhole camera, or an orthographic one. The pinhole camera shows a point that is one unit away
+/// along the direction, and x units off it, x * focal_length pixels from the picture's middle.
 struct Camera {
   std::array<double, 3> eye = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
@@ -55,8 +55,8 @@ struct Camera {
   bool orthographic = false;
   /// Patches that certainly lie outside of the circle around the picture's corners are not seen.
   bool skip_outside = false;
-  /// Patches without weights whose du x dv certainly points away from the eye everywhere are not
-  /// seen, either: for closed models, of which these are the far side.
+  /// Patches without weights are not seen, either, if du x dv certainly points away from the eye
+  /// everywhere: the far side of a closed model.
   bool skip_back = false;
 };
 
@@ -68,9 +68,9 @@ struct CertifiedRates {
   std::span<double> deviation;        ///< the bound on the distance, errors included; may be empty
 };
 
-/// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
-/// of error_bounds() over three components. out: one value a patch. Allocation: none. Cost: some
-/// 0.2 us a bicubic patch, 3 us with weights. Returns ok | output_too_small | unknown_isa |
+/// Bounds the distance of evaluated positions of each patch from the exact ones, by the norm of
+/// error_bounds() over three components. out: one value a patch. Allocation: none. Cost: some 0.2
+/// us a bicubic patch, 3 us with weights. Returns ok | output_too_small | unknown_isa |
 /// unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
@@ -78,12 +78,12 @@ template <typename T>
 
 /// Finds tolerances for choose_rates() with which no point of a surface is seen more than `pixels`
 /// away from its place on the mesh, from this camera.
-/// Formula: pixels * depth / (focal_length * f), depth being that of the nearest control point, at
-///          least Camera::nearest, and f the secant of the angle between the axis and the corners
-///          of the picture; pixels / focal_length if the camera is orthographic. Patches that are
-///          not seen (wholly nearer than Camera::nearest, or skipped) get the diagonal of their
-///          control points' box, at least Camera::nearest: meshes have as few cells there as their
-///          edges allow, and stay closed.
+/// Formula: pixels * depth / (focal_length * f). The depth is that of the nearest control point, at
+///          least Camera::nearest; f is the secant of the angle between the axis and the picture's
+///          corners. An orthographic camera has pixels / focal_length.
+/// Unseen:  a patch that is skipped, or wholly nearer than Camera::nearest, gets the diagonal of
+///          its control points' box, at least Camera::nearest. It then has as few cells as its
+///          edges allow, and meshes stay closed.
 /// out:     one value a patch, in the order of all views.
 /// Returns: ok | the statuses of views | bad_tolerance (pixels, or a member of the camera, that is
 ///          not above zero and finite) | output_too_small.
@@ -93,26 +93,26 @@ template <typename S>
                                                      const Camera& camera, double pixels,
                                                      std::span<double> out) noexcept;
 
-/// Chooses, for every patch, a small number of rows and columns of cells, and the diagonals of the
-/// cells, so that the triangles stay within the patch's tolerance. Only ratios of rows to columns
-/// near the one that the bound on the whole patch suggests are tried. Rates depend on the patch's
-/// control points and tolerance, on which of its sides are shared, and on forced diagonals; small
-/// rates are raised if the mesh would be degenerate (separate_vertices()).
+/// Chooses a small number of rows and columns of cells for every patch, and the diagonals of the
+/// cells, so that the triangles stay within the patch's tolerance. The rates depend on the patch's
+/// control points and tolerance, on which of its sides are shared, and on forced diagonals.
+/// separate_vertices() raises small rates if the mesh would be degenerate. The bound on the whole
+/// patch suggests a ratio of rows to columns, and only ratios near it are tried.
 /// Bound:       max |S - T| over a triangle is at most the largest value of 1/2 sum l_i l_j Q_ij
-///              over barycentric coordinates l, Q_ij being the largest second derivative of S along
+///              over barycentric coordinates l. Q_ij is the largest second derivative of S along
 ///              edge ij, taken over control vectors of the patch's quarters. No vertex that a
-///              neighbour adds to an edge can raise it. docs/tessellation.md has the proof, and the
-///              closer bounds of rational patches, of weights that are products (cylinders,
+///              neighbour adds to an edge can raise the bound. docs/tessellation.md has the proof,
+///              and closer bounds of rational patches, of weights that are products (cylinders,
 ///              spheres, tori), and of uneven parameters or weights more than 4.5-fold apart.
 /// Source:      Filip, Magedson, Markot, Surface Algorithms Using Bounds on Derivatives, CAGD 3,
-///              1986, whose bound uses the triangle inequality for the diagonal.
+///              1986. Their bound uses the triangle inequality for the diagonal.
 /// Determinism: a function of the control points, and of rates that are kept; the same in each
 ///              class of instruction sets (Isa), for any number of threads.
 /// Allocation:  bytes a patch, scratch per thread. Outputs must not overlap inputs (not checked).
 /// Returns:     ok | the statuses of views (bad_components: not three) | non_finite_input |
-///              bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (not
-///              above zero or the patch's error, an error below 0 or nan, or more than
-///              most_segments needed) | bad_topology (that of other nets, see fits()) |
+///              bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (one
+///              that is not above both zero and the patch's error, an error below 0 or nan, or more
+///              than most_segments needed) | bad_topology (found for other nets, see fits()) |
 ///              snap_too_large (snapping has taken more than half of a tolerance) | the statuses of
 ///              running. The report names the patch. Outputs are undefined on an error.
 /// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate

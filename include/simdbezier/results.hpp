@@ -18,7 +18,7 @@
 
 namespace simdbezier {
 
-/// One value a sample of what was asked for; the other vectors are empty, as all are on an error.
+/// One value a sample in each vector that was asked for. The others are empty; on an error, all.
 template <typename T>
 struct SurfaceSamples {
   Status status;

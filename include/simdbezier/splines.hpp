@@ -86,9 +86,9 @@ struct SplineSurface {
   std::span<const double> knots_v = {};
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
-  /// Neighbouring knots that are no further apart, all of them together, count as equal: as the
-  /// first of them, and at the end as the last one. An end of a range that is no further from a
-  /// knot is that knot.
+  /// Neighbouring knots count as one if the first and the last of them are no further apart: as the
+  /// first, but at the end as the last. An end of a range that is no further from a knot is that
+  /// knot.
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };
@@ -127,8 +127,8 @@ template <typename S>
 
 /// Makes Bézier nets of spline surfaces, those of the first surface first.
 /// surfaces:   equal degrees, components and presence of weights.
-/// out:        as many nets as there are patches, of the surfaces' degrees and components, apart
-///             from their points. Weights may be Cartesian or homogeneous, whichever form the
+/// out:        as many nets as there are patches, of the surfaces' degrees and components, in other
+///             memory than theirs. Weights may be Cartesian or homogeneous, whichever form the
 ///             surfaces have. Rational points that are one point whatever their weights (see
 ///             Weights::homogeneous) stay one.
 /// intervals:  of each patch; or empty.
@@ -224,12 +224,12 @@ template <typename S>
 ///             `first_patch` on (else bad_patch_range).
 /// U, V:       as locate() takes them. Ascending ones are the fastest: those of one span are
 ///             evaluated together. At knots, the patch that locate() takes counts.
-/// out:        as in evaluate(). Derivatives are by U and V: the results of evaluate(), divided by
-///             powers of the intervals' lengths, which are formed in double and rounded to T: a
-///             power that T cannot hold gives 0, infinite or nan. All else has the bits of
-///             evaluate() at locate()'s centred places, rounded to T. Exactly mirrored splines have
-///             equal positions at mirrored parameters, bit for bit, and all else between knots: at
-///             a knot, one takes the right side and the other the left one.
+/// out:        as in evaluate(). Derivatives are by U and V: those of evaluate(), divided by powers
+///             of the intervals' lengths. Powers are formed in double and rounded to T; one that T
+///             cannot hold gives 0, infinite or nan. All else has the bits of evaluate() at the
+///             centred places of locate(), rounded to T. Exactly mirrored splines have bit-equal
+///             positions at mirrored parameters. Other outputs are bit-equal between knots; at a
+///             knot, one spline takes the right side and the other one the left side.
 /// Allocation: a few values for each of U and V.
 /// Returns:    what locate() and evaluate() return.
 template <typename T, typename S>
@@ -263,17 +263,17 @@ evaluate_samples(const CurveSet<T>& set, const SplineCurve<S>& curve, std::span<
                  const std::type_identity_t<CurveOutputs<T>>& out, const Options& options = {},
                  std::size_t first_curve = 0) noexcept;
 
-/// A bound on the error of a Bézier control point of a surface in double, relative to the largest
-/// |d| of the component (with weights: to |w d|, and for weights to the largest of them): (m_u +
-/// m_v + 4 + (1 for Cartesian weights)) u (1 + 2^-40), m = (degree + 1) / 2 rounded up.
+/// Bounds the error of a Bézier control point of a surface in double, relative to the largest |d|
+/// of the component (with weights: |w d|; of weights: the largest weight): (m_u + m_v + 4 + (1 for
+/// Cartesian weights)) u (1 + 2^-40), m = (degree + 1) / 2 rounded up.
 [[nodiscard]] constexpr double spline_error(int degree_u, int degree_v,
                                             Weights weights = Weights::none) noexcept {
   const int pairs = (degree_u + 2) / 2 + (degree_v + 2) / 2;
   return (pairs + 4 + (weights == Weights::cartesian ? 1 : 0)) * 0x1p-53 * (1 + 0x1p-40);
 }
 
-/// A bound on the distance between a surface and its patches at equal parameters, the patches being
-/// those that to_bezier() makes in S, with homogeneous weights if any; infinite for weights too far
+/// Bounds the distance between a surface and its patches at equal parameters. The patches are those
+/// that to_bezier() makes in S, with homogeneous weights if any. Infinite if weights are too far
 /// apart.
 /// Formula: with N the numerator, W the weight, and N', W' of the patches, N'/W' - N/W = ((N' - N)
 ///          - (N/W) (W' - W)) / W'; N/W is no farther away than the farthest control point.
@@ -284,7 +284,7 @@ template <typename S>
 /// Meshes of spline surfaces, whose patches are numbered as those of to_bezier(): see mesh.hpp.
 /// surfaces:  of any degrees, with and without weights, of three components.
 /// Deviation: is certified from the splines, with extraction_error() as a part of the tolerance.
-/// report:    if given, says which surface is at fault, and where; ok if none is.
+/// report:    not null: gets the surface at fault, and the place in it; ok if none is.
 /// Returns:   what to_bezier() and the call for nets return.
 /// Memory:    also the nets of all patches while the mesh is planned.
 template <typename T, typename S>

@@ -70,7 +70,7 @@ private:
 /// The negation of Status::ok itself would be true.
 constexpr bool operator!(Status::Code) = delete;
 
-/// How a call ended that looks at many control points, and where it stopped. All but the status are
+/// How a call that looks at many control points ended, and where it stopped. All but the status are
 /// 0 on ok, and if no single item is at fault.
 struct Report {
   Status status;

@@ -42,7 +42,7 @@ struct TopologyCounts {
 /// How edges are joined.
 struct TopologyOptions {
   /// A side whose control points all lie within this distance of both of its ends counts as a
-  /// point, as do all sides that share its edge. 0: only if they are one point (find_adjacency()).
+  /// point, with all sides that share its edge. 0: only if they are one point (find_adjacency()).
   double point_size = 0;
   /// Turns patches so that the normals of neighbours agree: those that disagree with the lowest
   /// patch of their connected part. Otherwise all stay as they are given.
@@ -50,11 +50,11 @@ struct TopologyOptions {
   /// Turns all patches after that: triangles run, and normals point, the other way.
   bool flip = false;
   /// Joins pairs of open sides to one edge, in either direction, the closest first, if points of
-  /// equal parameters are certainly within this distance of each other; a mesh has the points of
-  /// the lower side there. The bound compares control points and weights after degrees have been
-  /// raised to the higher one and weights divided by the largest (docs/tessellation.md). Sides that
-  /// are no longer than this become points, as by point_size, and open sides that match a point
-  /// become points, too. 0: only sides with equal control points are one.
+  /// equal parameters are certainly within this distance of each other. A mesh then has the points
+  /// of the lower side. The bound compares control points and weights after degrees have been
+  /// raised to the higher one, and weights divided by the largest (docs/tessellation.md). Sides
+  /// that are no longer than this become points, as by point_size; so does an open side that
+  /// matches a point. 0: only sides with equal control points are one.
   double snap = 0;
 };
 
@@ -89,12 +89,11 @@ private:
 /// as meshes need them. Corners are joined through edges, not by their positions: corners that
 /// touch only in a point stay apart. An edge may have any number of sides.
 /// nets:       any views with three components; patches are numbered through, view after view.
-/// Threads:    RunOptions::threads. One alone joins corners of patches with distant numbers,
-///             snaps, and looks at patches that are repeated or share more than a corner or an
-///             edge.
+/// Threads:    RunOptions::threads. Corners of patches with distant numbers, snapping, and patches
+///             that are repeated or share more than a corner or an edge are work of a single one.
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and options.
-/// Cost:       some 0.2 to 0.7 us a patch. If thousands of patches have the same four edges, or
-///             values that are nan, these take the square of their number.
+/// Cost:       some 0.2 to 0.7 us a patch. Thousands of patches that have the same four edges, or
+///             nan among their values, take time by the square of their number.
 /// Returns:    ok | the statuses of views (bad_components: not three) | bad_tolerance (a point_size
 ///             or snap below 0, or nan) | not_orientable (if `orient` is asked for) | size_overflow
 ///             (2^29 patches and more) | out_of_memory.
@@ -159,9 +158,9 @@ enum class EdgeKind : std::uint8_t {
 /// What one edge of one patch is.
 struct EdgeLink {
   EdgeKind kind = EdgeKind::boundary;
-  PatchEdge edge = PatchEdge::v0; ///< the matching edge …
-  bool reversed = false;          ///< … runs the other way; false if both ways are equal
-  std::size_t patch = 0;          ///< … of this patch, which may be the same one
+  PatchEdge edge = PatchEdge::v0; ///< the matching edge
+  bool reversed = false;          ///< whether that runs the other way; false if both ways are equal
+  std::size_t patch = 0;          ///< its patch, which may be the same one
   friend bool operator==(const EdgeLink&, const EdgeLink&) = default;
 };
 
@@ -170,8 +169,8 @@ struct EdgeLink {
 ///            patch may match one of a 7 x 3 patch. Patches are numbered through, view after view.
 /// edges:     [4 * patch + PatchEdge]; may not overlap the memory from the first to the last value
 ///            of any view, gaps included. A shared edge gets the other one. A non_manifold edge
-///            gets the next one with the same points, in order of patch and edge, the last the
-///            first. edge, reversed and patch of boundary and collapsed edges are 0.
+///            gets the next one with the same points, in order of patch and edge; the last of them
+///            gets the first. edge, reversed and patch of boundary and collapsed edges are 0.
 /// Match:     equal degree and components, and bit-equal control points, weights included, in the
 ///            same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
 ///            counts as none; other weights must have the same form. Such edges are watertight.
@@ -225,11 +224,11 @@ private:
   }
 };
 
-/// What came of short edges along a part of a longer one.
+/// How many short edges lie along a part of a longer one, and what came of them.
 struct SplitCounts {
-  std::size_t splits = 0;   ///< those that patches were cut for
-  std::size_t unjoined = 0; ///< those that stay open
-  double largest_gap = 0;   ///< at least the largest distance of one of these from that part
+  std::size_t splits = 0;   ///< edges that patches were cut for
+  std::size_t unjoined = 0; ///< edges that stay open
+  double largest_gap = 0;   ///< at least the distance of each open one from the longer edge
 };
 
 /// Patches of which some are pieces of those given.
@@ -248,8 +247,8 @@ struct SplitNets {
 /// is repeated until nothing is found: pieces may be as long as several others. If nothing is cut,
 /// SplitNets::nets are those given.
 /// nets:    as for find_topology().
-/// Gap:     short edges count as unjoined within a 32nd of their size of a part of another, or if a
-///          cut would lead to more pieces than allowed.
+/// Gap:     a short edge counts as unjoined if it is within a 32nd of its size of a part of another
+///          edge, or if cuts for it would lead to more pieces than allowed.
 /// Threads: RunOptions::threads, for topologies. Allocation: as find_topology(), and the pieces.
 ///          Determinism: a function of the control points and options.
 /// Cost:    a find_topology() each time, and microseconds for each open side in another one's box.
