@@ -1,6 +1,6 @@
 // simdbezier for C (C99) and every language that can call C: many Bézier patches at many parameters
-// in one call. Each function names the C++ function that it runs, whose header says what is
-// computed, how accurately, and at what cost; the rules below are what the C form adds.
+// in one call. Each function names the C++ function that it runs. That one's header says what is
+// computed, how accurately, and at what cost. The rules below are what the C form adds.
 //
 //     simdbezier_nets nets = simdbezier_packed_nets_f32(points, 48 * patches, 3, 3, 3, 0);
 //     simdbezier_patch_set *set = NULL;
@@ -19,16 +19,16 @@
 //              aborts or lets an exception through. On an error nothing has been written, except to
 //              outputs that the C++ header calls undefined then.
 //   Structs    begin with struct_size, which the caller sets to sizeof. They may grow at their end:
-//              programs that were compiled for a smaller struct go on working, and those for a
-//              larger one do if the members that this library does not know are zero. Zero is every
-//              member's usual value: a struct of which only struct_size is set is complete. Small
+//              programs that were compiled for a smaller struct go on working. Programs that were
+//              compiled for a larger one work if the members that this library does not know are
+//              zero. Zero is every member's usual value: set struct_size, and what differs. Small
 //              structs without a struct_size never change. The elements of an array of structs all
 //              have the struct_size of the first.
 //   Pointers   come with the number of elements that they point to, and a call that would go beyond
 //              is refused. A null pointer to options means that all members are zero.
-//   Strides    count elements, not bytes; those of formatted vertices alone count bytes.
-//   Numbers    are float or double: a struct says which by its `scalar`. The functions ending in
-//              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
+//   Strides    count elements; only those of formatted vertices count bytes.
+//   Numbers    are float or double: a struct says which by its `scalar`. Functions that end in _f32
+//              or _f64 fill in structs, so that the compiler checks the pointers.
 //   Handles    are made by one function and given back to one …_free(), which accepts null. They
 //              are immutable: any number of threads may use one at once.
 //   C++ alone  has results in std::vectors (results.hpp), PackOptions::reuse_memory, split_edges()

@@ -5,8 +5,8 @@
 
 SIMDBEZIER_BEGIN_C
 
-// CurveGrid: n parameters of every curve; sample (curve, i) is number (curve - first_curve) * n +
-// i.
+// CurveGrid: n parameters of every curve; sample (curve, i) has the index
+// (curve - first_curve) * n + i.
 typedef struct simdbezier_curve_grid {
   size_t struct_size;
   size_t n;

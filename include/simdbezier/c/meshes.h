@@ -119,7 +119,7 @@ typedef struct simdbezier_mesh_options {
   int32_t flip;
   int32_t drop_repeated;
   int32_t no_normals;
-  int32_t parameters; // not 0: u, v and patch of every vertex, which patches do not share then
+  int32_t parameters; // not 0: u, v and patch of every vertex; patches then share no vertices
   int32_t short_indices;
   int32_t local_origin;
   int32_t threads;
@@ -144,7 +144,7 @@ typedef struct simdbezier_mesh_arrays {
   const double* deviations;      // 1 a patch
   size_t patches_given;
   double deviation;
-  size_t splits; // SplitCounts, as for the two below: what came of `split_edges`
+  size_t splits; // this and the two below: SplitCounts
   size_t unjoined;
   double largest_gap;
 } simdbezier_mesh_arrays;
@@ -163,7 +163,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* me
 
 typedef struct simdbezier_mesh_plan simdbezier_mesh_plan;
 
-// PatchPiece: which part of a patch given a patch of the set is.
+// PatchPiece: the part of a given patch that a patch of the set is.
 typedef struct simdbezier_patch_piece {
   uint32_t patch;
   double u0;

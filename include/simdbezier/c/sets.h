@@ -62,8 +62,8 @@ typedef struct simdbezier_control_curves {
   simdbezier_scalar scalar;
 } simdbezier_control_curves;
 
-// Nets with all values side by side, u fastest, as many as there are points for, incomplete ones
-// included, so that calls refuse them.
+// Nets with all values side by side, u fastest, as many as there are points for. An incomplete one
+// counts, so that calls refuse it.
 static inline simdbezier_nets simdbezier_packed_nets_of(const void* points, size_t length,
                                                         int32_t degree_u, int32_t degree_v,
                                                         int32_t components,
@@ -239,8 +239,8 @@ simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch, sim
 SIMDBEZIER_API simdbezier_status
 simdbezier_curve_error_bounds(const simdbezier_curve_set* set, size_t curve, simdbezier_isa isa,
                               simdbezier_error_bounds_of_curve* bounds);
-// largest_position_bound(), position_errors(): the latter have one value a patch or a curve; of
-// their options, threads and isa count.
+// largest_position_bound(), position_errors(). Errors are one value a patch or a curve; of their
+// options, threads and isa count.
 SIMDBEZIER_API simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* set,
                                                                    simdbezier_isa isa,
                                                                    double* bound);
