@@ -16,6 +16,7 @@
 #include <simdbezier/nets.hpp>          // IWYU pragma: export
 #include <simdbezier/options.hpp>       // IWYU pragma: export
 #include <simdbezier/outputs.hpp>       // IWYU pragma: export
+#include <simdbezier/patch_set.hpp>     // IWYU pragma: export
 #include <simdbezier/rates.hpp>         // IWYU pragma: export
 #include <simdbezier/results.hpp>       // IWYU pragma: export
 #include <simdbezier/splines.hpp>       // IWYU pragma: export
