@@ -60,8 +60,8 @@ private:
 /// Formula:    the coefficients of powers of X = t - 1/2; from degree 6 on, those of both halves
 ///             around their own middles, as accurate as de Casteljau's algorithm.
 /// curves:     S = float or double; the memory may be freed after the call.
-/// options:    as for patches; relative_to applies to the first three components. A curve that is
-///             to match a patch's edge must be packed with the patch's options.
+/// options:    as for patches, but reuse_memory has no effect. relative_to applies to the first
+///             three components. A curve matches a patch's edge only with the patch's options.
 /// Numerics:   S = T = float: formed in double, else in double-double; rounded once to T. Results
 ///             depend neither on the instruction set nor on threads. -0 becomes +0.
 /// Allocation: one block: for cubics in space 19 T and 12 S a curve. Positions read 18 T of these.

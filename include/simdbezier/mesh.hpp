@@ -31,7 +31,7 @@ struct MeshOptions {
   /// The most pixels that the mesh may be off in a picture; needs a camera.
   double pixels = kUnlimited;
   Camera camera = {};
-  /// Every patch gets nu x nv samples, 2 or more each, instead of what tolerances ask for.
+  /// Every patch gets nu x nv samples, from 2 to kMostSegments + 1 each (else bad_grid, bad_rates).
   std::uint32_t nu = 0;
   std::uint32_t nv = 0;
 
