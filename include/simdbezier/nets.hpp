@@ -14,9 +14,9 @@
 //             mirrored parameters gives the reversed result bit for bit. -0 becomes +0.
 //   Edges     an edge of the result that lies on an edge of the patch depends on that edge's
 //             control points only: neighbours with bit-equal edges keep them after equal
-//             operations, in any orientation. Corners of the patch stay exact, as do whole edges
-//             that the operation does not touch. Equal neighbouring values stay equal: a collapsed
-//             edge stays collapsed, whatever its weights.
+//             operations, in any orientation. Corners of the patch, and whole edges that the
+//             operation does not touch, stay exact. Equal neighbouring values stay equal: a
+//             collapsed edge stays collapsed, whatever its weights.
 //   Threads   RunOptions::threads. Allocation: scratch per thread, none per patch. Nothing throws.
 //   Statuses  ok, those of views and running (Status) | null_output | output_too_small | bad_weight
 //             | non_finite_input | bad_patch_range (counts differ) | overlapping_outputs.

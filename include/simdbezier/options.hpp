@@ -69,7 +69,7 @@ struct RunOptions {
   /// prevent. Its pool does not survive fork() either: in a child of a process that has used
   /// several threads, only calls with 1 return.
   int threads = 0;
-  Isa isa = Isa::automatic; ///< see resolve_isa(); calls without kernels of their own ignore it
+  Isa isa = Isa::automatic; ///< see resolve_isa(); calls that run no kernel ignore it
 };
 
 /// Where the outputs should end up. No choice changes a bit of them. Streaming stores bypass the

@@ -213,7 +213,7 @@ inline constexpr std::size_t kCurvatureKinds = static_cast<std::size_t>(Curvatur
 /// Where the curvatures of a surface go; null means not asked for. They are computed from first and
 /// second derivatives, and are nan if the status is not `regular`.
 ///
-/// There is no bound for them: they divide by |du x dv|^2 and lose digits where that is small
+/// They have no error bound: they divide by |du x dv|^2, and lose digits if that is small
 /// (docs/accuracy.md has figures; float is of no use closer than 0.001 to a pole). Principal
 /// curvatures are computed from K and H^2. If those leave the range of T or sink below its smallest
 /// normal number, they are infinite, nan or have lost digits.

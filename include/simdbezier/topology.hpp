@@ -53,8 +53,8 @@ struct TopologyOptions {
   /// equal parameters are certainly within this distance of each other. A mesh then has the points
   /// of the lower side. The bound compares control points and weights after degrees have been
   /// raised to the higher one, and weights divided by the largest (docs/tessellation.md). Sides
-  /// that are no longer than this become points, as by point_size; so does an open side that
-  /// matches a point. 0: only sides with equal control points are one.
+  /// that are no longer than this, and open sides that match a point, become points. 0: only sides
+  /// with equal control points are one.
   double snap = 0;
 };
 
