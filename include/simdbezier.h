@@ -31,12 +31,11 @@
 //              or _f64 fill in structs, so that the compiler checks the pointers.
 //   Handles    are made by one function and given back to one …_free(), which accepts null. They
 //              are immutable: any number of threads may use one at once.
-//   C++ alone  has results in std::vectors (results.hpp), PackOptions::reuse_memory, split_edges()
-//              and find_distinct_nets() as calls of their own, counts of a part of a topology,
-//              spline_error() and extraction_error(), and what is a line or two in C: nets seen the
-//              other way round (by `first` and strides), meets_tolerance(), derivative_divisor(),
-//              iso_u() and iso_v() from nets to sets (by way of points), samples of spline curves
-//              (by way of places), and grids of splines without a set.
+//   C++ alone  has results.hpp, PackOptions::reuse_memory, split_edges(), find_distinct_nets(),
+//              counts of a part of a topology, spline_error(), extraction_error(), and what takes a
+//              line or two in C: nets the other way round (by `first` and strides), iso_u() and
+//              iso_v() from nets to sets (by points), samples of spline curves (by places), grids
+//              of splines without a set, meets_tolerance(), derivative_divisor().
 #pragma once
 
 #include <simdbezier/c/curves.h>         // IWYU pragma: export

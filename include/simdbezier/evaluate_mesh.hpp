@@ -162,8 +162,7 @@ struct FormattedOutputs {
   QuantisationBox box;        ///< the box of positions; what lies outside of it moves to its border
 };
 
-/// Evaluates vertices as evaluate_mesh(set, layout, MeshOutputs, …) does, and formats them.
-/// Options::destination has no effect.
+/// Evaluates vertices as the call with MeshOutputs does, and formats them. All stores are plain.
 /// Octahedral: n / (|x| + |y| + |z|), whose lower half is folded over the upper one, is a point (s,
 ///             t) of a square: rounded to the nearest q / 32 767 or q / 127. Source: Z. Cigolle et
 ///             al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT, 2014.

@@ -193,9 +193,8 @@ struct SplinePlaces {
 /// Knots:    at an inner one the patch behind it (the right side), at the end the last one.
 /// Periodic: parameters outside of the period are moved by whole periods.
 /// U, V:     `count` values each, in any order, in the domain or range (else bad_range).
-/// Returns:  ok | the statuses of knots (bad_degree | bad_grid | null_input | bad_knots | bad_range
-///           | bad_tolerance | size_overflow) | non_finite_input | out_of_memory. Report::point is
-///           the number of the parameter or knot at fault.
+/// Returns:  ok | bad_degree | bad_grid | null_input | bad_knots | bad_range | bad_tolerance |
+///           size_overflow | non_finite_input | out_of_memory. `point`: the parameter or knot.
 /// Cost:     a binary search for each parameter that is not in the span of the one before.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report locate(const SplineSurface<S>& surface, std::size_t count,
