@@ -260,8 +260,7 @@ struct PatchVertices {
 /// part, own: as above. first_vertex: the number of the first vertex that an own patch owns.
 /// ghosts:    what owned_vertices() told about the patches before the own ones, one value each.
 /// numbers:   one value for every vertex below part.first_vertex(own.first + own.count).
-///            kUnknownVertex: it was not told. No own patch needs such a vertex if all ghosts are
-///            there.
+///            kUnknownVertex: it was not told; no own patch needs it if all ghosts are there.
 /// Returns:   ok | bad_patch_range | unequal_lengths (ghosts) | output_too_small. Allocation: none.
 [[nodiscard]] SIMDBEZIER_API Status number_part(const MeshLayout& part, SetRange own,
                                                 std::uint64_t first_vertex,

@@ -131,8 +131,7 @@ template <typename S>
 /// overlaps are as for choose_rates(), which takes longer.
 /// rates:   cells_u and cells_v are read, from 1 to kMostSegments. diagonals and deviation are
 ///          written, and undefined on an error. errors: one value a patch, or empty.
-/// Returns: as choose_rates(), but bad_tolerance for errors alone, and never snap_too_large;
-///          bad_rates also for rates outside of that range.
+/// Returns: as choose_rates(), less snap_too_large; bad_rates also for rates outside of that range.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report certify_rates(std::span<const ControlNets<S>> nets,
                                                   const Topology& topology,
