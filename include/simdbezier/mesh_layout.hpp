@@ -210,10 +210,10 @@ struct ClusterOutputs {
 // of earlier parts own. Ghosts before the own patches belong to such a part, which tells where
 // their vertices begin (PatchVertices).
 //
-// Rates depend on the patch and on diagonals that the topology forces; those of entangled patches
-// (Topology::is_entangled()) depend on neighbours, too. A part can find both for patches of which
-// it contains all neighbours. Rates of its ghosts come from their own part; or the part contains
-// the ghosts of its ghosts, and of entangled patches, as well.
+// Rates depend on the patch alone and on diagonals that the topology forces, except for entangled
+// patches (Topology::is_entangled()). Both properties of a patch are known in a part that contains
+// all of its neighbours. Rates of ghosts come from the part that they belong to; or the model of a
+// part also contains the ghosts of its ghosts, and those of entangled patches.
 
 /// Keys by which corners and edges of patches in different memories are compared.
 struct PatchKeys {
