@@ -59,6 +59,18 @@ public:
     return static_cast<std::size_t>(std::upper_bound(first, first + size(), sample) - first - 1);
   }
 
+  /// How many grids from k on go to a kernel together: at most so many of one size, which end by
+  /// sample `end` and lie one behind the other in the caller's memory. 1 where there are no others.
+  [[nodiscard]] std::size_t alike(std::size_t k, std::size_t end, std::size_t most) const noexcept {
+    const std::size_t samples = nu(k) * nv(k);
+    std::size_t count = 1;
+    while (count < most && k + count < size() && nu(k + count) == nu(k) && nv(k + count) == nv(k) &&
+           before(k + count + 1) <= end && offset(k + count) == offset(k) + count * samples) {
+      ++count;
+    }
+    return count;
+  }
+
 private:
   [[nodiscard]] bool matches(std::span<const std::size_t> offset) const noexcept {
     return offset.empty() || offset.size() == nu_.size();

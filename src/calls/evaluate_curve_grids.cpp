@@ -39,7 +39,8 @@ public:
       const std::size_t before = grids_.before(k);
       const std::size_t last = std::min(end, grids_.before(k + 1)) - before;
       std::size_t first = std::max(begin, before) - before;
-      const std::size_t together = first == 0 ? alike(k, end) : 1;
+      const std::size_t most = kernels_.chunk_samples / grids_.nu(k);
+      const std::size_t together = first == 0 ? grids_.alike(k, end, most) : 1;
       const GridPlan<T>& plan = plans.find(grids_.nu(k), 1);
       while (first < last) {
         const std::size_t stop = std::min(last, first + kernels_.chunk_samples);
@@ -54,19 +55,6 @@ public:
   }
 
 private:
-  /// How many curves from k on end by sample `end`, are of equal size and leave no gap between
-  /// them, so that they go to a kernel together.
-  [[nodiscard]] std::size_t alike(std::size_t k, std::size_t end) const noexcept {
-    const std::size_t n = grids_.nu(k);
-    std::size_t count = 1;
-    while (k + count < grids_.size() && grids_.nu(k + count) == n &&
-           grids_.before(k + count + 1) <= end && (count + 1) * n <= kernels_.chunk_samples &&
-           grids_.offset(k + count) == grids_.offset(k) + count * n) {
-      ++count;
-    }
-    return count;
-  }
-
   std::size_t first_curve_;
   const CountedGrids& grids_;
   OutputPlan<T> outputs_;

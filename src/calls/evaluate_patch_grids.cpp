@@ -75,24 +75,12 @@ public:
   }
 
 private:
-  /// How many patches from k on one piece takes: whole grids of one size, one behind the other in
-  /// the caller's memory, within a share of work and a chunk of staging.
+  /// How many whole grids from k on one piece takes, as far as staging has room for them.
   [[nodiscard]] std::size_t alike_from(std::size_t k, std::size_t begin,
                                        std::size_t end) const noexcept {
-    const std::size_t nu = grids_.nu(k);
-    const std::size_t nv = grids_.nv(k);
-    const std::size_t samples = nu * nv;
-    if (nv > kMostRows || grids_.before(k) < begin) {
-      return 1;
-    }
-    const std::size_t most = outputs_.staged() ? piece_samples_ / samples : ~std::size_t(0);
-    std::size_t last = k;
-    while (last < grids_.size() && last - k < most && grids_.nu(last) == nu &&
-           grids_.nv(last) == nv && grids_.before(last) + samples <= end &&
-           grids_.offset(last) == grids_.offset(k) + (last - k) * samples) {
-      ++last;
-    }
-    return last - k;
+    const std::size_t samples = grids_.nu(k) * grids_.nv(k);
+    const std::size_t most = outputs_.staged() ? piece_samples_ / samples : grids_.size();
+    return grids_.nv(k) <= kMostRows && grids_.before(k) >= begin ? grids_.alike(k, end, most) : 1;
   }
   /// The next rows of patch k, of which there are `last`, or the first ones of the patch behind it
   /// where its grid is the same; otherwise the piece itself.
