@@ -105,7 +105,7 @@ Status run_net_kernel(NetKernel<Task> Table::*kernel, const Task& task, std::siz
   if (runs != Status::ok) {
     return runs;
   }
-  const NetKernel<Task> run = net_table<Table>(isa).*kernel;
+  const NetKernel<Task> run = separate_table<Table>(isa).*kernel;
   return run_blocks(lane_groups(count), duration_of(count, 100), options, values * kLineBytes,
                     [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
                       const std::size_t last = end * kMaxLanes < count ? end * kMaxLanes : count;

@@ -133,11 +133,13 @@ const Table& table_of(Isa isa, const Table* const (&tables)[std::size(kIsas)]) n
   }
 SIMDBEZIER_TABLE(kernel_table<float>, KernelTable<float>, table_f32)
 SIMDBEZIER_TABLE(kernel_table<double>, KernelTable<double>, table_f64)
-SIMDBEZIER_TABLE(net_table<detail::NetTable<float>>, NetTable<float>, net_table_f32)
-SIMDBEZIER_TABLE(net_table<detail::NetTable<double>>, NetTable<double>, net_table_f64)
-SIMDBEZIER_TABLE(net_table<detail::NetOperationTable<float>>, NetOperationTable<float>,
+SIMDBEZIER_TABLE(separate_table<detail::NetTable<float>>, NetTable<float>, net_table_f32)
+SIMDBEZIER_TABLE(separate_table<detail::NetTable<double>>, NetTable<double>, net_table_f64)
+SIMDBEZIER_TABLE(separate_table<detail::NetOperationTable<float>>, NetOperationTable<float>,
                  net_operations_f32)
-SIMDBEZIER_TABLE(net_table<detail::NetOperationTable<double>>, NetOperationTable<double>,
+SIMDBEZIER_TABLE(separate_table<detail::NetOperationTable<double>>, NetOperationTable<double>,
                  net_operations_f64)
+SIMDBEZIER_TABLE(separate_table<detail::FormatTable<float>>, FormatTable<float>, format_table_f32)
+SIMDBEZIER_TABLE(separate_table<detail::FormatTable<double>>, FormatTable<double>, format_table_f64)
 
 } // namespace simdbezier

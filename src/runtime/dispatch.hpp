@@ -1,6 +1,7 @@
 // Chooses the kernel table that a call uses.
 #pragma once
 
+#include "src/tables/format_table.hpp"
 #include "src/tables/kernel_table.hpp"
 #include "src/tables/net_table.hpp"
 
@@ -12,9 +13,9 @@ bool cpu_supports(Isa isa) noexcept;
 /// The table of an instruction set that available_isas() lists.
 template <typename T>
 const KernelTable<T>& kernel_table(Isa isa) noexcept;
-/// Its NetTable or NetOperationTable.
+/// Its NetTable, NetOperationTable or FormatTable.
 template <typename Table>
-const Table& net_table(Isa isa) noexcept;
+const Table& separate_table(Isa isa) noexcept;
 
 /// The instruction set on which a call with `requested` may run instead of the resolved one,
 /// because it is the next narrower one and gives the same bits. automatic: there is none, or

@@ -48,7 +48,7 @@ Status cut_all(const SplineList<T>& list, const NetView<T>& out,
   if (const Status status = resolve_isa(options.isa, isa); !status) {
     return status;
   }
-  const MeanKernels& means = net_table<NetTable<float>>(isa).means;
+  const MeanKernels& means = separate_table<NetTable<float>>(isa).means;
   const auto work = [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
     SplineCutter<T> cutter(list, means, scratch);
     for (std::size_t row = begin; row < end; ++row) {

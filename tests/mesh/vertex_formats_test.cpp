@@ -117,51 +117,6 @@ TEST(VertexFormats, parameters_are_as_close_as_promised) {
   }
 }
 
-/// Halves of values, each of which is the only vertex of a patch that is a point.
-std::vector<std::uint16_t> halves_of(const std::vector<float>& values) {
-  std::vector<float> points;
-  for (const float value : values) {
-    points.insert(points.end(), 48, value);
-  }
-  PatchSet<float> set;
-  Topology topology;
-  MeshLayout layout;
-  const auto nets = ControlNets<float>::packed(std::span<const float>(points));
-  EXPECT_TRUE(pack(nets, set));
-  EXPECT_EQ(find_topology(nets, topology), Status::ok);
-  const std::vector<std::uint32_t> ones(values.size(), 1);
-  EXPECT_EQ(lay_out_mesh(topology, {ones, ones, {}}, layout), Status::ok);
-  EXPECT_EQ(layout.size().vertices, values.size());
-  std::vector<unsigned char> bytes(6 * values.size());
-  FormattedOutputs out;
-  out.position = {bytes.data(), 0, VertexFormat::half, values.size()};
-  EXPECT_EQ(evaluate_mesh(set, layout, out), Status::ok);
-  std::vector<std::uint16_t> halves;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    halves.push_back(read<std::uint16_t>(bytes, 6 * k));
-  }
-  return halves;
-}
-
-/// Numbers that are halves, middles between two of them, and what is next to these.
-TEST(VertexFormats, halves_are_the_nearest) {
-  std::vector<float> values = {65519, 65520, 1e20F, -1e20F};
-  std::vector<std::uint32_t> expected = {0x7bff, 0x7c00, 0x7c00, 0xfc00};
-  for (std::uint32_t bits = 0; bits < 0x7bff; bits += 7) {
-    const double low = from_half(static_cast<std::uint16_t>(bits));
-    const double high = from_half(static_cast<std::uint16_t>(bits + 1));
-    const auto middle = static_cast<float>((low + high) / 2);
-    values.insert(values.end(), {static_cast<float>(low), -static_cast<float>(high), middle,
-                                 std::nextafter(middle, 0.0F), std::nextafter(middle, 1e9F)});
-    const std::uint32_t even = bits % 2 == 0 ? bits : bits + 1;
-    expected.insert(expected.end(), {bits, 0x8000 + bits + 1, even, bits, bits + 1});
-  }
-  const std::vector<std::uint16_t> halves = halves_of(values);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    EXPECT_EQ(halves[k], expected[k]) << values[k];
-  }
-}
-
 TEST(VertexFormats, bytes_are_equal_for_any_threads_and_instruction_set_of_a_class) {
   EvaluatedMesh<float>& mesh = fine_ball();
   std::vector<unsigned char> expected[2];

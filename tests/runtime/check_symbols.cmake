@@ -9,7 +9,7 @@ set(budget_bicubic 2000)
 set(budget_shape 1300)
 set(budget_curve 600)
 set(budget_net 210)
-set(budget_mesh 50)
+set(budget_mesh 65)
 
 foreach(object IN LISTS OBJECTS)
   execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols

@@ -28,6 +28,10 @@ extern const detail::NetOperationTable<float> net_operations_f32;
 extern const detail::NetOperationTable<double> net_operations_f64;
 const detail::NetOperationTable<float> net_operations_f32{};
 const detail::NetOperationTable<double> net_operations_f64{};
+extern const detail::FormatTable<float> format_table_f32;
+extern const detail::FormatTable<double> format_table_f64;
+const detail::FormatTable<float> format_table_f32{};
+const detail::FormatTable<double> format_table_f64{};
 } // namespace SIMDBEZIER_FOREIGN_TABLES
 
 namespace {

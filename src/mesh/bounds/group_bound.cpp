@@ -22,7 +22,7 @@ constexpr double kMostLooked = 64;
 } // namespace
 
 // Both tables have the same bounds. A program that knows floats alone has one of them.
-GroupBound::GroupBound(Isa isa) noexcept : kernels_(net_table<NetTable<float>>(isa).bounds) {}
+GroupBound::GroupBound(Isa isa) noexcept : kernels_(separate_table<NetTable<float>>(isa).bounds) {}
 
 template <typename S>
 bool GroupBound::read(const ControlNets<S>& nets, std::size_t patch, RateFlags flags) {

@@ -5,11 +5,11 @@
 
 #include "src/calls/call.hpp"
 #include "src/mesh/net_points.hpp"
-#include "src/mesh/vertices/format_values.hpp"
 #include "src/mesh/vertices/formatted_columns.hpp"
 #include "src/mesh/vertices/vertex_work.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/runtime/fp_environment.hpp"
+#include "src/tables/format_table.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -22,9 +22,10 @@ public:
   [[nodiscard]] static std::size_t bytes(std::size_t chunk) noexcept {
     return kPlanes * whole_lines(chunk * sizeof(T));
   }
-  FormattingSink(const FormattedColumns& out, std::size_t first_vertex, std::size_t chunk,
+  FormattingSink(Isa isa, const FormattedColumns& out, std::size_t first_vertex, std::size_t chunk,
                  unsigned char* memory) noexcept
-      : out_(out), first_vertex_(first_vertex) {
+      : format_(separate_table<FormatTable<T>>(isa).format), out_(out),
+        first_vertex_(first_vertex) {
     for (T*& plane : plane_) {
       plane = reinterpret_cast<T*>(memory);
       memory += whole_lines(chunk * sizeof(T));
@@ -45,18 +46,10 @@ public:
     }
   }
   void end(std::size_t vertices) noexcept {
-    if (out_.position.wanted()) {
-      put_components(out_.position, plane_, kPositionComponents, out_.box, vertices);
-    }
-    if (out_.parameters.wanted()) {
-      const QuantisationBox unit{{0, 0, 0}, 1.0 / 65535};
-      put_components(out_.parameters, plane_ + kPlanes - 2, kParameterComponents, unit, vertices);
-    }
-    for (std::size_t k = 0; k < vertices && out_.normal.wanted(); ++k) {
-      const double n[3] = {static_cast<double>(plane_[3][k]), static_cast<double>(plane_[4][k]),
-                           static_cast<double>(plane_[5][k])};
-      put_normal(out_.normal.format, n, out_.normal.at(begin_ + k));
-    }
+    const QuantisationBox unit{{0, 0, 0}, 1.0 / 65535};
+    format(out_.position, plane_, kPositionComponents, out_.box, vertices);
+    format(out_.normal, plane_ + kPositionComponents, kPositionComponents, unit, vertices);
+    format(out_.parameters, plane_ + kPlanes - 2, kParameterComponents, unit, vertices);
   }
   DrainQueue<T>* queue() const noexcept { return nullptr; }
   void finish() const noexcept {}
@@ -64,16 +57,20 @@ public:
 private:
   static constexpr std::size_t kPlanes = 2 * kPositionComponents + kParameterComponents;
 
-  void put_components(const FormattedColumn& column, const T* const* planes, std::size_t components,
-                      const QuantisationBox& box, std::size_t vertices) const noexcept {
-    for (std::size_t k = 0; k < vertices; ++k) {
-      unsigned char* to = column.at(begin_ + k);
-      for (std::size_t c = 0; c < components; ++c) {
-        put_component(column.format, static_cast<double>(planes[c][k]), box.low[c], box.step, to);
-      }
+  void format(const FormattedColumn& column, const T* const* planes, std::size_t components,
+              const QuantisationBox& box, std::size_t vertices) const noexcept {
+    if (column.wanted()) {
+      format_({{planes[0], planes[1], planes[components - 1]},
+               vertices,
+               column.at(begin_),
+               column.stride,
+               column.format,
+               components,
+               box});
     }
   }
 
+  void (*format_)(const FormatTask<T>&);
   const FormattedColumns& out_;
   std::size_t first_vertex_;
   std::size_t begin_ = 0;
@@ -101,7 +98,7 @@ public:
   }
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    FormattingSink<T> sink(out_, task_.first_vertex, sizes_.chunk, scratch);
+    FormattingSink<T> sink(kernels_.table->isa, out_, task_.first_vertex, sizes_.chunk, scratch);
     Worker worker(task_, sizes_, sink, scratch + FormattingSink<T>::bytes(sizes_.chunk));
     return worker.run(task_.first_vertex + begin, task_.first_vertex + end);
   }
