@@ -82,8 +82,8 @@ SIMDBEZIER_INLINE Words to_whole(Wide value, Wide low, Wide high) {
   Wide x = value + half;
   x = smaller_of<Wide>(select_where<Wide>(x > low, x, low), high + half);
   const Wide near = (x + even) - even;
-  const Wide below = select_where<Wide>(near > x, near - broadcast<Wide>(1), near);
-  return words_of(below + broadcast<Wide>(kPoint));
+  const Wide above = select_where<Wide>(near > x, broadcast<Wide>(1), broadcast<Wide>(0));
+  return words_of(near - above + broadcast<Wide>(kPoint));
 }
 
 // Formats. find<true>() is exact, find<false>() has doubts ---------------------------------------
