@@ -43,16 +43,17 @@ private:
       : tile_{{task.x, first + k * kL, kL, task.watertight}...} {}
 
   /// It is a function, or there would be eight of it in a row.
-  static SIMDBEZIER_KERNEL Sweep sweep_of(const GridTask<T>& task, const GridTask<T>& shared_task,
-                                          const Tile& tile, std::size_t patch) {
-    return Sweep(task, shared_task, tile, patch, 1, ColumnPlanes<T>{nullptr});
+  static SIMDBEZIER_KERNEL Sweep sweep_of(const GridTask<T>& task, const Tile& tile,
+                                          std::size_t patch, DoubtfulSamples<T>& doubts) {
+    return Sweep(task, tile, patch, 1, ColumnPlanes<T>{nullptr}, doubts);
   }
 
   template <std::size_t... k>
   SIMDBEZIER_PART void sweep(const GridTask<T>& task, const GridTask<T>& shared_task,
                              const RowPiece<T>& piece, std::size_t patch,
                              std::index_sequence<k...> /*tiles*/) const {
-    const Sweep sweeps[] = {sweep_of(task, shared_task, tile_[k], patch)...};
+    DoubtfulSamples<T> doubts(shared_task, patch);
+    const Sweep sweeps[] = {sweep_of(task, tile_[k], patch, doubts)...};
     const V floor = broadcast<V>(task.normal_floor[patch]);
     const bool outside = piece.middle.kind == RowKind::outside;
     const auto middle_floor = [&](const Sweep& tile) SIMDBEZIER_INLINE_LAMBDA {
@@ -79,6 +80,9 @@ private:
             tile.interior(y, at(place, tile), rows, middle_floor(tile));
           }
         });
+    if (doubts.any()) [[unlikely]] {
+      doubts.resolve();
+    }
   }
 
   Tile tile_[kTiles];

@@ -81,21 +81,25 @@ SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
                                             std::size_t patch, const V* squared, V floor) {
   using T = ScalarOf<V>;
   alignas(64) T floors[kLanes<V>];
+  alignas(64) T squares[kMostSmallSamples][kLanes<V>];
   store_vector(floors, floor);
   for (std::size_t k = 0; k < grid.samples(); ++k) {
-    if (all_of<V>(squared[k] > floor)) {
-      continue;
-    }
-    alignas(64) T squares[kLanes<V>];
-    store_vector(squares, squared[k]);
-    const std::size_t row = k / grid.nu;
-    const V x = broadcast<V>(grid.x[k % grid.nu]);
-    const V y = row == 0 ? grid.end[0].y : row + 1 < grid.nv ? grid.row[row - 1].y : grid.end[1].y;
-    for (std::size_t p = 0; p < kLanes<V>; ++p) {
-      if (!(squares[p] > floors[p])) {
-        const UncertainNormals uncertain{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
-        resolve_normals(task, patch + p, uncertain, x, y, squared[k], floor);
+    store_vector(squares[k], squared[k]);
+  }
+  for (std::size_t p = 0; p < kLanes<V>; ++p) {
+    DoubtfulSamples<T> doubts(task, patch + p);
+    for (std::size_t k = 0; k < grid.samples(); ++k) {
+      if (!(squares[k][p] > floors[p])) {
+        const std::size_t row = k / grid.nu;
+        const V y = row == 0            ? grid.end[0].y
+                    : row + 1 < grid.nv ? grid.row[row - 1].y
+                                        : grid.end[1].y;
+        doubts.add(UncertainNormals{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1},
+                   broadcast<V>(grid.x[k % grid.nu]), y, squared[k], floor);
       }
+    }
+    if (doubts.any()) {
+      doubts.resolve();
     }
   }
 }

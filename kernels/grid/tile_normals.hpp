@@ -43,22 +43,22 @@ struct NormalSweep {
   using T = ScalarOf<V>;
 
   const GridTask<T>& task;
-  const GridTask<T>& shared_task; ///< the same, whose address may leave
   const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile;
-  std::size_t patch;
   std::size_t status_step; ///< statuses from one sample of the planes to the next
   ColumnPlanes<T> extra;   ///< positions, then normals
+  DoubtfulSamples<T>& doubts;
   Component<T> component[3];
   JetColumns<V, kAsks> columns[3];
 
   SIMDBEZIER_INLINE
-  NormalSweep(const GridTask<T>& the_task, const GridTask<T>& the_shared_task,
+  NormalSweep(const GridTask<T>& the_task,
               const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& the_tile, std::size_t the_patch,
-              std::size_t the_status_step, ColumnPlanes<T> the_extra)
-      : task(the_task), shared_task(the_shared_task), tile(the_tile), patch(the_patch),
-        status_step(the_status_step),
-        extra(the_extra), component{
-                              {the_task, the_patch, 0}, component[0].next(), component[1].next()} {
+              std::size_t the_status_step, ColumnPlanes<T> the_extra,
+              DoubtfulSamples<T>& the_doubts)
+      : task(the_task), tile(the_tile), status_step(the_status_step), extra(the_extra),
+        doubts(the_doubts), component{{the_task, the_patch, 0},
+                                      component[0].next(),
+                                      component[1].next()} {
     for_components([&](std::size_t c)
                        SIMDBEZIER_INLINE_LAMBDA { columns[c].build(component[c], tile); });
   }
@@ -114,10 +114,9 @@ struct NormalSweep {
       return;
     }
     if (!all_of<V>(s.squared > floor)) [[unlikely]] {
-      resolve_normals(shared_task, patch,
-                      UncertainNormals{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at,
-                                       task.nu, status_step},
-                      tile.column.x, tile.edge_y(edge_of(kind)), s.squared, floor);
+      doubts.add(UncertainNormals{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at, task.nu,
+                                  status_step},
+                 tile.column.x, tile.edge_y(edge_of(kind)), s.squared, floor);
     }
   }
 
@@ -157,8 +156,7 @@ private:
     if (!all_of<V>(squared > floor)) [[unlikely]] {
       const std::size_t row_step = kMirrored ? std::size_t{0} - task.nu : task.nu;
       const V row_y = RowGroups<kRows, V>::spread(y);
-      resolve_normals(
-          shared_task, patch,
+      doubts.add(
           UncertainNormals{0, tile.kColumns, tile.active, rows, place.at, row_step, status_step},
           tile.column.x, kMirrored ? -row_y : row_y, squared, floor);
     }
@@ -185,6 +183,7 @@ private:
   }
 };
 
+/// shared_task: the task, whose address may leave.
 template <bool kAny, bool kAsks, typename Piece, std::size_t kRows, bool kWhole, bool kExtra,
           typename V, bool kStreams>
 SIMDBEZIER_PART void sweep_normals(const GridTask<ScalarOf<V>>& task,
@@ -194,8 +193,9 @@ SIMDBEZIER_PART void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                    ColumnPlanes<ScalarOf<V>> extra) {
   using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
+  DoubtfulSamples<T> doubts(shared_task, patch);
   const NormalSweep<kRows, kWhole, kExtra, kAny, kAsks, V, kStreams> sweep(
-      task, shared_task, tile, patch, status_step, extra);
+      task, tile, patch, status_step, extra, doubts);
   const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
   const V middle_floor = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
   NormalSamples<V> shared;
@@ -219,6 +219,9 @@ SIMDBEZIER_PART void sweep_normals(const GridTask<ScalarOf<V>>& task,
           SIMDBEZIER_INLINE_LAMBDA { sweep.pair(y, place, mirrored, middle_floor); },
       [&](const T* y, RowPlace place, std::size_t rows)
           SIMDBEZIER_INLINE_LAMBDA { sweep.interior(y, place, rows, middle_floor); });
+  if (doubts.any()) [[unlikely]] {
+    doubts.resolve();
+  }
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "kernels/simd/lanes.hpp"
+#include "kernels/poly/normal_start.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -37,40 +37,120 @@ SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
   return select_where<V>(below & above, floor, no_floor<V>());
 }
 
-/// Resolves, lane by lane, the normals that did not pass. They are rare, so this is kept out of
-/// line; vectors come by value, or the fast path would have to keep them in memory.
-template <typename V>
-SIMDBEZIER_RARE void resolve_normals(const detail::SampleTask<ScalarOf<V>>& task, std::size_t patch,
-                                     UncertainNormals s, V x, V y, V squared, V floor) {
-  using T = ScalarOf<V>;
-  const V vectors[4] = {squared, floor, x, y};
-  alignas(64) T lanes[4][kLanes<V>];
-  for (int i = 0; i < 4; ++i) {
-    store_vector(lanes[i], vectors[i]);
+/// Samples of one patch whose normals did not pass. They are rare, so all of this is kept out of
+/// line.
+template <typename T>
+class DoubtfulSamples {
+public:
+  DoubtfulSamples(const detail::SampleTask<T>& task, std::size_t patch)
+      : task_(task), patch_(patch) {}
+  [[nodiscard]] bool any() const { return count_ > 0; }
+
+  /// Adds those of a register. Vectors come by value, or the fast path would have to keep them in
+  /// memory.
+  template <typename V>
+  SIMDBEZIER_KERNEL void add(UncertainNormals s, V x, V y, V squared, V floor) {
+    if (count_ + s.rows * s.active > kMost) {
+      resolve();
+    }
+    status_step_ = s.status_step;
+    value_step_ = s.value_step;
+    const V vectors[4] = {squared, floor, x, y};
+    alignas(64) T lanes[4][kLanes<V>];
+    for (int i = 0; i < 4; ++i) {
+      store_vector(lanes[i], vectors[i]);
+    }
+    for (std::size_t row = 0; row < s.rows; ++row) {
+      for (std::size_t k = 0; k < s.active; ++k) {
+        const std::size_t i = s.lane + row * s.columns + k;
+        x_[count_] = static_cast<double>(lanes[2][i]);
+        y_[count_] = static_cast<double>(lanes[3][i]);
+        at_[count_] = s.at + row * s.row_step + k;
+        count_ += lanes[0][i] > lanes[1][i] ? 0 : 1;
+      }
+    }
   }
-  const detail::Planes<T>& normals = task.out[output_index(Output::normal)];
-  for (std::size_t k = 0; k < s.rows * s.active; ++k) {
-    const std::size_t i = s.lane + k / s.active * s.columns + k % s.active;
-    const std::size_t at = s.at + k / s.active * s.row_step + k % s.active;
-    if (lanes[0][i] > lanes[1][i]) {
-      continue;
+
+  /// Resolves all samples that have been added.
+  SIMDBEZIER_KERNEL void resolve() {
+    const detail::NetShape& shape = *task_.shape;
+    const detail::GivenNet net = task_.given.net(patch_ * shape.control_values());
+    for (std::size_t k = count_; k < count_ + kWideLanes; ++k) { // lanes of the last register
+      x_[k] = y_[k] = 1;
     }
-    const detail::NormalQuery<T> query{
-        task.shape, task.given.net(patch * task.shape->control_values()), lanes[2][i], lanes[3][i]};
-    T normal[3];
-    const SampleStatus status = task.resolve_normal(query, normal);
-    for (int c = 0; normals.wanted() && c < 3; ++c) {
-      normals.component[c][at * s.value_step] = normal[c];
+    double normals[3][kMost + kWideLanes];
+    double orders[kMost + kWideLanes]; ///< of the coefficients that have decided, or -1
+    if (shape.rational) {
+      for (std::size_t k = 0; k < count_; ++k) {
+        orders[k] = -1;
+      }
+    } else if (shape.degree_u == 3 && shape.degree_v == 3) {
+      start<4>(net, normals, orders);
+    } else {
+      start<0>(net, normals, orders);
     }
-    for (T* const curvature : task.curvature) {
+    for (std::size_t k = 0; k < count_; ++k) {
+      T normal[3];
+      if (orders[k] < 0) {
+        const detail::NormalQuery<T> query{&shape, net, static_cast<T>(x_[k]),
+                                           static_cast<T>(y_[k])};
+        put(at_[k], task_.resolve_normal(query, normal), normal);
+      } else {
+        for (std::size_t c = 0; c < 3; ++c) {
+          normal[c] = static_cast<T>(normals[c][k]) + T(0);
+        }
+        put(at_[k], orders[k] == 0 ? SampleStatus::regular : SampleStatus::limit, normal);
+      }
+    }
+    count_ = 0;
+  }
+
+private:
+  static constexpr std::size_t kMost = 4 * detail::kMaxLanes;
+
+  template <std::size_t kKnown>
+  SIMDBEZIER_KERNEL void start(const detail::GivenNet& net, double (*normals)[kMost + kWideLanes],
+                               double* orders) const {
+    const NormalStart<kKnown> patch(net, static_cast<std::size_t>(task_.shape->degree_u + 1),
+                                    static_cast<std::size_t>(task_.shape->degree_v + 1),
+                                    detail::kLimitTolerance<T>);
+    for (std::size_t k = 0; k < count_; k += kWideLanes) {
+      patch.find(x_ + k, y_ + k, normals[0] + k, kMost + kWideLanes, orders + k);
+    }
+  }
+
+  void put(std::size_t at, SampleStatus status, const T normal[3]) const {
+    const detail::Planes<T>& to = task_.out[output_index(Output::normal)];
+    for (std::size_t c = 0; to.wanted() && c < 3; ++c) {
+      to.component[c][at * value_step_] = normal[c];
+    }
+    for (T* const curvature : task_.curvature) {
       if (curvature != nullptr && status != SampleStatus::regular) {
         curvature[at] = std::numeric_limits<T>::quiet_NaN();
       }
     }
-    if (task.status != nullptr) {
-      task.status[at * s.status_step] = status;
+    if (task_.status != nullptr) {
+      task_.status[at * status_step_] = status;
     }
   }
+
+  const detail::SampleTask<T>& task_;
+  std::size_t patch_;
+  std::size_t status_step_ = 1;
+  std::size_t value_step_ = 1;
+  std::size_t count_ = 0;
+  double x_[kMost + kWideLanes];
+  double y_[kMost + kWideLanes];
+  std::size_t at_[kMost + 1];
+};
+
+/// Resolves the normals of a register that did not pass.
+template <typename V>
+SIMDBEZIER_RARE void resolve_normals(const detail::SampleTask<ScalarOf<V>>& task, std::size_t patch,
+                                     UncertainNormals s, V x, V y, V squared, V floor) {
+  DoubtfulSamples<ScalarOf<V>> samples(task, patch);
+  samples.add(s, x, y, squared, floor);
+  samples.resolve();
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

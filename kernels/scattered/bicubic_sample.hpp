@@ -4,6 +4,7 @@
 
 #include "kernels/poly/bicubic.hpp"
 #include "kernels/poly/half_centred.hpp"
+#include "kernels/poly/normal_lanes.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -40,18 +41,12 @@ SIMDBEZIER_PART void store_normal(const ScatteredTask<T>& task, std::size_t k,
   const T y = place.y;
   T n[3];
   const T squared = cross_product(du, dv, n);
-  const bool inside = x <= T(0.5) && x >= T(-0.5) && y <= T(0.5) && y >= T(-0.5);
-  if (inside && squared > task.normal_floor[place.patch]) {
-    normalise(n, squared);
-  } else {
-    const detail::NormalQuery<T> query{task.shape,
-                                       task.given.net(place.patch * detail::kCoefficients), x, y};
-    const SampleStatus status = task.resolve_normal(query, n);
-    if (task.status != nullptr) {
-      task.status[k] = status;
-    }
-  }
+  const T floor = floor_inside(x, floor_inside(y, task.normal_floor[place.patch]));
+  normalise(n, squared);
   store_point(task.out[output_index(Output::normal)], k, n);
+  if (!(squared > floor)) {
+    resolve_normals(task, place.patch, UncertainNormals{0, 1, 1, 1, k, 0, 1}, x, y, squared, floor);
+  }
 }
 
 /// Evaluates the position and the first derivatives.

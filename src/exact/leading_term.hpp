@@ -6,13 +6,9 @@
 
 #include "src/exact/bounded.hpp"
 #include "src/exact/prime_field.hpp"
+#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::detail {
-
-/// What the components of a limit are known to, relative to the largest: below the last rounding to
-/// float by far more than directions need, and 10^-9 degree in double.
-template <typename T>
-inline constexpr double kLimitTolerance = sizeof(T) == sizeof(float) ? 0x1p-18 : 0x1p-38;
 
 /// A coefficient: vector times 2^exponent, and which one; order -1: all are zero.
 struct LeadingTerm {
@@ -74,10 +70,6 @@ inline void take(const Bounded vector[3], LeadingTerm& term) {
     term.vector[c] = std::ldexp(vector[c].value, -term.exponent);
   }
 }
-
-/// The accuracy of regular directions: there are many samples close to where they vanish, and exact
-/// decisions of high degrees take a millisecond each. Bounds exceed errors by far.
-inline constexpr double kRegularTolerance = 0x1p-16;
 
 /// Decides in doubles; false where rounding errors leave it open. Order `lowest` is the regular
 /// case.

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "src/exact/normal_series.hpp"
-#include "src/exact/normal_start.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -40,16 +39,7 @@ public:
       weights_ = net.all->weights;
       std::memcpy(values_, net.values, bytes);
       known_ = Known::nothing;
-      is_scaled_ = false;
     }
-  }
-  /// The control points of the patch, which has no weights.
-  [[nodiscard]] const ScaledNet& scaled(const GivenNet& net) {
-    if (!is_scaled_) {
-      scaled_.read(net, shape_.order_u(), shape_.order_v());
-      is_scaled_ = true;
-    }
-    return scaled_;
   }
   void learn(const NormalQuestion& question) {
     if (known_ == Known::nothing) {
@@ -65,9 +55,7 @@ private:
   bool in_double_ = false;
   Weights weights_ = Weights::none;
   Known known_ = Known::nothing;
-  bool is_scaled_ = false;
   unsigned char values_[kMostOrder * kMostOrder * 4 * sizeof(double)] = {};
-  ScaledNet scaled_{};
 };
 
 thread_local LastPatch last_patch;
@@ -129,16 +117,6 @@ SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
   last_patch.look_at(query.net, *query.shape);
   if (sides == 0 && last_patch.is_zero()) {
     return SampleStatus::degenerate;
-  }
-  if (sides == 0 && !query.shape->rational) {
-    NormalStart start(last_patch.scaled(query.net), static_cast<std::size_t>(query.shape->degree_u),
-                      static_cast<std::size_t>(query.shape->degree_v),
-                      LineParameter::to_middle(x, y, kParameterU),
-                      LineParameter::to_middle(y, x, kParameterV));
-    LeadingTerm term;
-    if (start.find(kLimitTolerance<T>, term)) {
-      return put_direction(term, 1, normal);
-    }
   }
   const SampleQuestion question(query.net, *query.shape, x, y, sides);
   // Which homogeneous points are one depends on the sample in the last digits: asked before

@@ -41,6 +41,15 @@ struct NormalQuery {
   T y;
 };
 
+/// What the components of a limit are known to, relative to the largest: below the last rounding to
+/// float by far more than directions need, and 10^-9 degree in double.
+template <typename T>
+inline constexpr double kLimitTolerance = sizeof(T) == sizeof(float) ? 0x1p-18 : 0x1p-38;
+
+/// The accuracy of regular directions: there are many samples close to where they vanish, and exact
+/// decisions of high degrees take a millisecond each. Bounds exceed errors by far.
+inline constexpr double kRegularTolerance = 0x1p-16;
+
 /// Writes the unit normal (or zero, or nan at nan parameters); see src/exact/normal_fallback.hpp.
 template <typename T>
 using ResolveNormal = SampleStatus (*)(const NormalQuery<T>& query, T normal[3]);

@@ -11,7 +11,6 @@
 #include "src/exact/bounded.hpp"
 #include "src/exact/leading_term.hpp"
 #include "src/exact/normal_series.hpp"
-#include "src/exact/normal_start.hpp"
 #include "src/exact/prime_field.hpp"
 #include "tests/support/random.hpp"
 
@@ -253,54 +252,6 @@ TEST(ExactArithmetic, both_ways_find_the_same_term) {
           << i;
     }
   }
-}
-
-/// Its terms are those of the whole series, bit for bit.
-TEST(ExactArithmetic, the_start_of_a_series_is_that_of_the_whole) {
-  Random random(6);
-  constexpr double kPlaces[] = {-0.5, 0.5, 0, 0.25, -0.4999999, 0.6};
-  int found[2] = {0, 0};
-  for (int i = 0; i < 2000; ++i) {
-    const auto degree_u = static_cast<std::size_t>(1 + random.below(i % 8 == 0 ? 15 : 4));
-    const auto degree_v = static_cast<std::size_t>(1 + random.below(i % 16 == 0 ? 15 : 4));
-    std::vector<double> values((degree_u + 1) * (degree_v + 1) * 3);
-    const int spread = i % 5 == 0 ? 80 : 0;
-    for (double& value : values) {
-      value = i % 3 == 0 ? std::round(2 * random.symmetric()) : random.symmetric();
-      value = std::ldexp(value, i % 7 * 100 - 300 + static_cast<int>(spread * random.symmetric()));
-    }
-    if (i % 2 == 0) { // a collapsed edge v = 0
-      for (std::size_t k = 3; k < (degree_u + 1) * 3; ++k) {
-        values[k] = values[k % 3];
-      }
-    }
-    detail::GivenPoints given;
-    given.values = values.data();
-    given.in_double = true;
-    const double x = i % 4 == 0 ? kPlaces[random.below(6)] : 0.5 * random.symmetric();
-    const double y = kPlaces[random.below(6)];
-    const detail::NormalQuestion question(given.net(0), degree_u, degree_v, x, y);
-    detail::ScaledNet net;
-    net.read(given.net(0), degree_u + 1, degree_v + 1);
-    detail::NormalStart start(net, degree_u, degree_v, question.u(), question.v());
-    detail::LeadingTerm first;
-    if (!start.find(0x1p-38, first)) {
-      continue;
-    }
-    EXPECT_TRUE(question.inside());
-    detail::LeadingTerm whole;
-    const BoundedField field = question.field();
-    detail::NormalSeries series(field, question);
-    ASSERT_TRUE(detail::find_in_doubles(series, 0, question.highest(), 0x1p-38, whole)) << i;
-    ASSERT_EQ(first.order, whole.order) << i;
-    EXPECT_EQ(first.exponent, whole.exponent) << i;
-    for (int c = 0; c < 3; ++c) {
-      EXPECT_EQ(first.vector[c], whole.vector[c]) << i;
-    }
-    ++found[first.order];
-  }
-  EXPECT_GT(found[0], 900);
-  EXPECT_GT(found[1], 100);
 }
 
 } // namespace
