@@ -5,6 +5,7 @@
 
 #include "kernels/shape/column_polynomials.hpp"
 #include "kernels/shape/shape_edges.hpp"
+#include "kernels/simd/sample_quads.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -46,21 +47,68 @@ public:
     }
   }
 
-  /// build() of one sample (V = T) off the edges of its cell, in a set without origins: lanes are
-  /// powers of Y. Reads up to a register behind the last coefficient, where the edges stand.
-  SIMDBEZIER_PART void build_across(const Cell<T>& cell) {
-    using Lanes = vec<T>;
-    const Lanes x = broadcast<Lanes>(columns_.local.x);
-    const auto load = [](const T* c, std::size_t /*i*/)
-                          SIMDBEZIER_INLINE_LAMBDA { return load_vector<Lanes>(c); };
+  /// build() of lanes in any cells of any patches, off the edges u = const: those of lane i have
+  /// coefficients from from[i] on. Lanes are powers of Y first, those of a sample side by side in
+  /// 128 bits, which are then turned. Reads up to so many bits behind the last coefficient, where
+  /// the edges stand. origins may be null.
+  SIMDBEZIER_PART void build_mixed(const T* const from[kLanes<V>],
+                                   const ColumnOrigins<V>* origins) {
+    constexpr std::size_t kN = kQuad<V>;
+    static_assert(P::OrderV::kMost % kN == 0);
+    origins_ = origins;
+    V x[kN];
+    spread_quads(columns_.local.x, x);
     slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      const T* const matrix = cell.coefficients + slots_.channel(slot) * shape_.matrix();
-      for (std::size_t l = 0; l < order_v_.value(); l += kLanes<Lanes>) {
-        Series<Lanes> s;
-        horner_series_abreast<kDepth, 1>(order_u_, x, matrix + l, order_v_.value(), load, &s);
-        Powers& power = polynomials_.power[slot];
-        put_series(s, [&](std::size_t derivative, Lanes value)
-                          SIMDBEZIER_INLINE_LAMBDA { store_vector(power[derivative] + l, value); });
+      Powers& power = polynomials_.power[slot];
+      const auto put = [&](Series<V>& s, std::size_t l) SIMDBEZIER_INLINE_LAMBDA {
+        put_series(s, [&](std::size_t derivative, V value)
+                          SIMDBEZIER_INLINE_LAMBDA { power[derivative][l] = value; });
+      };
+      const auto turn = [&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA {
+        repeat<kDepth + 1>([&](std::size_t derivative)
+                               SIMDBEZIER_INLINE_LAMBDA { lane_transpose(power[derivative] + l); });
+      };
+      const std::size_t matrix = slots_.channel(slot) * shape_.matrix();
+      if constexpr (P::OrderU::kMost == 4 && P::OrderV::kMost == 4) { // lines of 64 bytes
+        constexpr std::size_t kParts = 4 / kN;
+        repeat<kN>([&](std::size_t group) SIMDBEZIER_INLINE_LAMBDA {
+          V c[kParts][4];
+          repeat<kParts>([&](std::size_t line) SIMDBEZIER_INLINE_LAMBDA {
+            const T* at[kQuads<V>];
+            repeat<kQuads<V>>([&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA {
+              at[q] = from[q * kN + group] + matrix + line * 4 * kN;
+            });
+            load_quads<V>(at, c[line]);
+          });
+          repeat<kParts>([&](std::size_t part) SIMDBEZIER_INLINE_LAMBDA {
+            Series<V> s;
+            horner_rows<kDepth, 1>(
+                order_u_, x + group,
+                [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+                  const std::size_t at = k * kParts + part;
+                  return c[at / 4][at % 4];
+                },
+                &s);
+            put(s, part * kN + group);
+          });
+        });
+        repeat<kParts>([&](std::size_t part) SIMDBEZIER_INLINE_LAMBDA { turn(part * kN); });
+      } else {
+        for (std::size_t l = 0; l < order_v_.value(); l += kN) {
+          repeat<kN>([&](std::size_t group) SIMDBEZIER_INLINE_LAMBDA {
+            const T* const first = from[group];
+            const auto load = [&](const T* c, std::size_t /*i*/) SIMDBEZIER_INLINE_LAMBDA {
+              return quads_at<V>([&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA {
+                return from[q * kN + group] + (c - first);
+              });
+            };
+            Series<V> s;
+            horner_series_abreast<kDepth, 1>(order_u_, x[group], first + matrix + l,
+                                             order_v_.value(), load, &s);
+            put(s, l + group);
+          });
+          turn(l);
+        }
       }
     });
   }

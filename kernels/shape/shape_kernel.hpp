@@ -123,6 +123,13 @@ template <typename T>
 SIMDBEZIER_KERNEL void shape_scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
+    if constexpr (!kCompactShapes && kRational && kDepth < 2) { // measured: docs/experiments.md
+      const NetShape& shape = *task.shape;
+      if (shape.components == 3 && task.first_component == 0 && shape.degree_u == 3 &&
+          shape.degree_v == 3) {
+        return scatter_shape<ShapePlan<kDepth, kRational, 3, 4, 4>>(task);
+      }
+    }
     scatter_shape<AnyPlan<kDepth, kRational>>(task);
   });
 }

@@ -37,16 +37,14 @@ SIMDBEZIER_PART V patch_floor(const SampleTask<ScalarOf<V>>& task, std::size_t p
   return broadcast<V>(P::kWeighted ? kLeastSquare<T> : task.normal_floor[patch]);
 }
 
-/// Returns the floor of samples on a rational patch; see ShapeFloor.
+/// Returns the floor of samples on rational patches, from the sizes of the patches' errors; see
+/// ShapeFloor.
 template <typename V>
-SIMDBEZIER_PART V rational_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
-                                 const SampleJet<V>& jet, V squared) {
-  using T = ScalarOf<V>;
-  const T* const sizes = task.normal_floor + 2 * range.patch;
+SIMDBEZIER_PART V rational_floor(V patch_u, V patch_v, V floor, const SampleJet<V>& jet,
+                                 V squared) {
   const V inverse2 = jet.inverse_weight * jet.inverse_weight;
-  const V size_u = broadcast<V>(sizes[0]) * inverse2;
-  const V size_v = broadcast<V>(sizes[1]) * inverse2;
-  V floor = range.floor;
+  const V size_u = patch_u * inverse2;
+  const V size_v = patch_v * inverse2;
   for (std::size_t c = 0; c < 3; ++c) {
     const V turned_u = size_u * jet.dv[c];
     const V turned_v = size_v * jet.du[c];
@@ -60,7 +58,9 @@ template <typename P, typename V>
 SIMDBEZIER_PART V normal_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                const SampleJet<V>& jet, V squared) {
   if constexpr (P::kWeighted) {
-    return rational_floor(task, range, jet, squared);
+    const ScalarOf<V>* const sizes = task.normal_floor + 2 * range.patch;
+    return rational_floor(broadcast<V>(sizes[0]), broadcast<V>(sizes[1]), range.floor, jet,
+                          squared);
   } else {
     return range.floor;
   }
@@ -77,16 +77,23 @@ SIMDBEZIER_PART void look_again(const SampleTask<ScalarOf<V>>& task, const Sampl
   }
 }
 
-template <typename P, typename V>
-SIMDBEZIER_PART void store_normals(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
-                                   const SampleJet<V>& jet) {
+/// Stores normals before any second look, and returns |du x dv|^2.
+template <typename V>
+SIMDBEZIER_PART V store_first_normals(const SampleTask<ScalarOf<V>>& task,
+                                      const SampleRange<V>& range, const SampleJet<V>& jet) {
   V n[3];
   const V squared = cross_product(jet.du, jet.dv, n);
   normalise(n, squared);
   repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
     range.store(task.out[output_index(Output::normal)].component[c], n[c]);
   });
-  look_again<P>(task, range, jet, squared);
+  return squared;
+}
+
+template <typename P, typename V>
+SIMDBEZIER_PART void store_normals(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                                   const SampleJet<V>& jet) {
+  look_again<P>(task, range, jet, store_first_normals(task, range, jet));
 }
 
 template <typename P, typename V>
@@ -178,7 +185,7 @@ SIMDBEZIER_PART bool wants_curvatures(const SampleTask<T>& task) {
   return wanted;
 }
 
-/// Stores all outputs that a task wants and a kernel of this plan computes.
+/// Stores all outputs of order 0 and 1 that a task wants and a kernel of this plan computes.
 template <typename P, typename V>
 SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                   const SampleJet<V>& jet) {
@@ -190,22 +197,6 @@ SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const Sam
       store_normals<P>(task, range, jet);
     }
   }
-  if constexpr (P::kDepth > 1) {
-    store_group<P>(task, Output::duu, range, jet.duu);
-    store_group<P>(task, Output::duv, range, jet.duv);
-    store_group<P>(task, Output::dvv, range, jet.dvv);
-    if (wants_curvatures(task)) {
-      store_curvatures<P>(task, &range, &jet, 1);
-    }
-  }
-}
-
-/// This is store_sample() as a function, for scattered samples: their loops have jets in memory
-/// anyway.
-template <typename P, typename V>
-SIMDBEZIER_KERNEL void store_shared(const SampleTask<ScalarOf<V>>& task,
-                                    const SampleRange<V>& range, const SampleJet<V>& jet) {
-  store_sample<P>(task, range, jet);
 }
 
 /// Stores all outputs of at most kTogether registers of the same columns, from memory. It is a

@@ -1,6 +1,10 @@
-// Scattered samples on patches of any shape: lanes = consecutive samples of one patch.
+// Scattered samples on patches of any shape: lanes are consecutive samples, of one patch or of any.
+//
+// A register has one formula. It is that of samples off the edges, unless all lanes are on one
+// patch and one edge; the others are rare, and are evaluated again, one by one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "kernels/poly/half_centred.hpp"
@@ -8,143 +12,263 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The lanes of `yes` keep what `jet` has, the others get what `other` has.
-template <typename P, typename V>
-SIMDBEZIER_PART void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, SampleJet<V>& jet) {
-  const auto keep = [&](V(&to)[3], const V(&from)[3]) SIMDBEZIER_INLINE_LAMBDA {
-    for (std::size_t c = 0; c < 3; ++c) {
-      to[c] = select_where<V>(yes, to[c], from[c]);
-    }
-  };
-  keep(jet.position, other.position);
-  if constexpr (P::kDepth > 0) {
-    keep(jet.du, other.du);
-    keep(jet.dv, other.dv);
-  }
-  if constexpr (P::kWeighted && P::kDepth > 0) {
-    jet.inverse_weight = select_where<V>(yes, jet.inverse_weight, other.inverse_weight);
-  }
-  if constexpr (P::kDepth > 1) {
-    keep(jet.duu, other.duu);
-    keep(jet.duv, other.duv);
-    keep(jet.dvv, other.dvv);
-  }
-}
-
-/// Evaluates samples of one patch in one row of cells, at the local y and at x, of which `columns`
-/// are made. edge is the edge v = const of the cells that all of them are on, or kEdges where it is
-/// none. It is out of line because it is large and has several callers.
-template <typename P, typename V>
-SIMDBEZIER_KERNEL void evaluate_row(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
-                                    std::size_t patch, std::size_t cell,
-                                    const CellColumns<V>& columns, V x, V y, std::size_t edge,
-                                    SampleJet<V>& jet) {
+/// The samples [first, first + count) of a task, at most a register of them; further lanes repeat
+/// the last.
+template <typename V>
+struct SampleLanes {
   using T = ScalarOf<V>;
-  const CellRow<T> cells(task, shape, patch, cell);
-  const typename ShapeColumns<P, V>::Edges edges(shape, columns, x, task.watertight,
-                                                 task.first_component, cells);
-  ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
-  ColumnOrigins<V> origins;
-  build_columns(polynomials, cells, edges, origins);
-  polynomials.template evaluate<1>(&y, &jet);
-  if (edge < kEdges) [[unlikely]] {
-    edges.replace_row(edge, jet);
+  static constexpr std::size_t kN = kLanes<V>;
+
+  std::size_t first;
+  std::size_t count;
+  const std::uint32_t* patch; ///< of each lane
+  V x;                        ///< half-centred; nan where a single sample's is not finite
+  V y;
+
+  SIMDBEZIER_PART SampleLanes(const ScatteredTask<T>& task, std::size_t first_sample,
+                              std::size_t samples)
+      : first(first_sample), count(samples), patch(task.patch + first) {
+    const T* u = task.u + first;
+    const T* v = task.v + first;
+    if (count == 1) { // much the same, but not by way of memory
+      std::fill_n(patches_, kN, *patch);
+      patch = patches_;
+      x = broadcast<V>(finite_half_centred(task, *u));
+      y = broadcast<V>(finite_half_centred(task, *v));
+      return;
+    }
+    if (count < kN) {
+      for (std::size_t i = 0; i < kN; ++i) {
+        const std::size_t from = i < count ? i : count - 1;
+        patches_[i] = patch[from];
+        values_[0][i] = u[from];
+        values_[1][i] = v[from];
+      }
+      patch = patches_;
+      u = values_[0];
+      v = values_[1];
+    }
+    x = half_centred(task, load_vector<V>(u));
+    y = half_centred(task, load_vector<V>(v));
   }
-}
+  SampleLanes(const SampleLanes&) = delete;
 
-/// Evaluates samples of one patch at half-centred x, y. edge is as for evaluate_row(), for samples
-/// that are all the same one.
+private:
+  std::uint32_t patches_[kN];
+  alignas(64) T values_[2][kN];
+};
+
+/// Finds the origins of lanes off edges in any cells.
 template <typename P, typename V>
-SIMDBEZIER_PART void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
-                                    std::size_t patch, V x, V y, std::size_t edge,
-                                    SampleJet<V>& jet) {
-  const CellColumns<V> columns(x, shape.cells_u(), task.watertight);
-  const CellColumns<V> rows(y, shape.cells_v(), task.watertight);
-  const bool both = rows.any_low && rows.any_high;
-  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, x, rows.local.x, edge, jet);
-  if (both) {
-    SampleJet<V> high;
-    evaluate_row<P>(task, shape, patch, 1, columns, x, rows.local.x, edge, high);
-    keep_lanes<P>(rows.low, high, jet);
-  }
+SIMDBEZIER_RARE void find_mixed_origins(const ScatteredTask<ScalarOf<V>>& task,
+                                        const NetShape& shape, const std::size_t* cell,
+                                        ColumnOrigins<V>& found) {
+  const typename P::Slots slots(shape, task.first_component);
+  slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+    const ScalarOf<V>* const origins =
+        task.origins + slots.channel(slot) * detail::kOriginsPerComponent;
+    found.position[slot] = from_lanes<V>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      return origins[cell[i] * shape.cell_origins()];
+    });
+    found.to_patch[slot] = broadcast<V>(ScalarOf<V>(0));
+  });
 }
 
-/// Returns what the normals of scattered samples are tested with.
+/// Builds the columns of lanes off edges in any cells of any patches.
 template <typename P, typename V>
-SIMDBEZIER_PART V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
-                               const SampleRange<V>& range) {
-  const V floor = patch_floor<P, V>(task, range.patch);
-  return floor_inside(range.y, floor_inside(range.x, floor));
-}
-
-/// Evaluates samples [k, k + count) of one patch, at most a register of them; further lanes repeat
-/// the last. Returns those that need a call of their own: samples on an edge v = const of their
-/// cell, and samples that are not finite. alone says that this is that call, and count is 1. A
-/// register has one formula, which is that of samples off these edges unless it is called for a
-/// sample alone.
-template <typename P, typename T>
-SIMDBEZIER_KERNEL std::uint32_t evaluate_together(const ScatteredTask<T>& task,
-                                                  const NetShape& shape, std::size_t k,
-                                                  std::size_t count, bool alone) {
-  using V = vec<T>;
+SIMDBEZIER_PART void build_mixed(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
+                                 const SampleLanes<V>& lanes, ShapeColumns<P, V>& columns,
+                                 ColumnOrigins<V>& room) {
+  using T = ScalarOf<V>;
   alignas(64) T x[kLanes<V>];
   alignas(64) T y[kLanes<V>];
-  std::uint32_t special = 0;
-  std::size_t edge = kEdges;
-  bool finite = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    x[i] = finite_half_centred(task, task.u[k + i]);
-    y[i] = finite_half_centred(task, task.v[k + i]);
-    edge = edge_of_cell(shape.cells_v() == 1 ? y[i] : cell_parameter(y[i]));
-    finite = x[i] == x[i] && y[i] == y[i];
-    special |= edge < kEdges || !finite ? std::uint32_t{1} << i : 0;
+  std::size_t cell[kLanes<V>];
+  const T* from[kLanes<V>];
+  if (shape.cells() > 1) {
+    store_vector(x, lanes.x);
+    store_vector(y, lanes.y);
   }
-  for (std::size_t i = count; i < kLanes<V>; ++i) {
-    x[i] = x[count - 1];
-    y[i] = y[count - 1];
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
+    cell[i] = lanes.patch[i];
+    if (shape.cells() > 1) {
+      const bool high_u = shape.cells_u() == 2 && !(x[i] < T(0));
+      const bool high_v = shape.cells_v() == 2 && !(y[i] < T(0));
+      cell[i] = cell[i] * shape.cells() + high_v * shape.cells_u() + high_u;
+    }
+    from[i] = own_address(task.coefficients + cell[i] * shape.cell_coefficients());
   }
-  SampleRange<V> range{task.patch[k], k, count, 0, load_vector<V>(x), load_vector<V>(y), {}};
-  range.floor = sample_floor<P>(task, range);
-  SampleJet<V> jet;
-  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y,
-                       alone && task.watertight ? edge : kEdges, jet);
-  if (alone && !finite && task.status != nullptr) {
-    task.status[k] = SampleStatus::non_finite;
+  const bool origins = task.origins != nullptr;
+  if (origins) [[unlikely]] {
+    find_mixed_origins<P>(task, shape, cell, room);
   }
-  store_shared<P>(task, range, jet);
-  return alone ? 0 : special;
+  columns.build_mixed(from, origins ? &room : nullptr);
 }
 
-/// Evaluates one sample, which nothing shares a register with: lanes are powers of Y, in a quarter
-/// of the time. Returns false, and does nothing, where it is on an edge of its cell or not finite,
-/// or the set has origins.
-template <typename P, typename T>
-SIMDBEZIER_KERNEL bool evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
-                                       std::size_t k) {
-  const T x = finite_half_centred(task, task.u[k]);
-  const T y = finite_half_centred(task, task.v[k]);
-  const CellColumns<T> column(x, shape.cells_u(), task.watertight);
-  const CellColumns<T> row(y, shape.cells_v(), task.watertight);
-  if (task.origins != nullptr || x != x || y != y || column.local.on_edge || row.local.on_edge) {
-    return false;
+/// Stores all outputs that a task wants, normals and curvatures before any second look.
+template <typename P, typename V>
+SIMDBEZIER_PART void store_block(const ScatteredTask<ScalarOf<V>>& task,
+                                 const SampleRange<V>& range, const SampleJet<V>& jet) {
+  store_group<P>(task, Output::position, range, jet.position);
+  if constexpr (P::kDepth > 0) {
+    store_group<P>(task, Output::du, range, jet.du);
+    store_group<P>(task, Output::dv, range, jet.dv);
+    if (task.out[output_index(Output::normal)].wanted()) {
+      store_first_normals(task, range, jet);
+    }
   }
-  const std::size_t patch = task.patch[k];
-  const CellRow<T> cells(task, shape, patch, row.any_low ? 0 : 1);
-  ShapeColumns<P, T> columns(shape, column, task.first_component);
-  columns.build_across(column.any_low ? cells.low : cells.high);
-  SampleJet<T> jet;
-  columns.template evaluate<1>(&row.local.x, &jet);
-  SampleRange<T> range{patch, k, 1, 0, x, y, {}};
-  range.floor = sample_floor<P>(task, range);
-  store_shared<P>(task, range, jet);
-  return true;
+  if constexpr (P::kDepth > 1) {
+    store_group<P>(task, Output::duu, range, jet.duu);
+    store_group<P>(task, Output::duv, range, jet.duv);
+    store_group<P>(task, Output::dvv, range, jet.dvv);
+    if (wants_curvatures(task)) {
+      CurvatureFrame<V> frame;
+      frame.find(jet);
+      V curvature[kCurvatureKinds];
+      curvatures(jet, frame, curvature);
+      store_curvature(task.curvature, false, range, curvature);
+    }
+  }
+}
+
+/// Returns what |du x dv|^2 of lanes inside of their patches has to be above, or (kCommon) a bound
+/// on that. To read what belongs to each patch is many accesses to memory, for values that seldom
+/// matter.
+template <typename P, bool kCommon, typename V>
+SIMDBEZIER_PART V floors_of(const ScatteredTask<ScalarOf<V>>& task, const SampleLanes<V>& lanes,
+                            const SampleJet<V>& jet, V squared) {
+  using T = ScalarOf<V>;
+  constexpr std::size_t kStep = P::kWeighted ? 2 : 1;
+  const auto floor = [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+    return kCommon ? broadcast<V>(task.common_floor)
+                   : gather_lanes<V>(task.normal_floor + i, lanes.patch, kStep);
+  };
+  if constexpr (P::kWeighted) {
+    return rational_floor(floor(0), floor(1), broadcast<V>(kLeastSquare<T>), jet, squared);
+  } else {
+    return floor(0);
+  }
+}
+
+/// Which lanes are strictly inside of their cells, by one local parameter.
+template <typename V>
+SIMDBEZIER_PART MaskOf<V> are_inside(V local) {
+  using T = ScalarOf<V>;
+  const MaskOf<V> above = local > broadcast<V>(T(-0.5));
+  const MaskOf<V> below = local < broadcast<V>(T(0.5));
+  return above & below;
+}
+
+template <std::size_t kDepth, bool kRational, typename T>
+SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size_t k,
+                                         std::size_t count);
+
+/// Finishes samples of which not all are usual: those that are on edges u = const (v = const) which
+/// are not done, or not finite, are evaluated alone; normals that do not pass take the second look.
+/// Vectors come by value, or the fast path would have to keep them in memory.
+template <typename P, typename V>
+SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task,
+                                    const SampleLanes<V>& lanes, V local_x, V local_y, bool done_u,
+                                    bool done_v, V squared, V floor) {
+  using T = ScalarOf<V>;
+  const V vectors[] = {local_x, local_y, squared, floor};
+  alignas(64) T value[4][kLanes<V>];
+  for (int i = 0; i < 4; ++i) {
+    store_vector(value[i], vectors[i]);
+  }
+  for (std::size_t i = 0; i < lanes.count; ++i) {
+    const std::size_t k = lanes.first + i;
+    const T u = value[0][i];
+    const T v = value[1][i];
+    const bool edge =
+        (!done_u && edge_of_cell(u) < kEdges) || (!done_v && edge_of_cell(v) < kEdges);
+    const bool finite = u - u == T(0) && v - v == T(0);
+    if (edge || (!finite && lanes.count > 1)) {
+      evaluate_together<P::kDepth, P::kWeighted>(task, k, 1);
+      continue;
+    }
+    if (!finite && task.status != nullptr) {
+      task.status[k] = SampleStatus::non_finite;
+    }
+    if (!(value[2][i] > value[3][i])) {
+      const UncertainNormals one{i, kLanes<V>, 1, 1, k, 0, 1};
+      resolve_normals(task, lanes.patch[i], one, lanes.x, lanes.y, squared, floor);
+    }
+  }
+}
+
+/// Evaluates samples [k, k + count), at most a register of them.
+template <typename P, typename T>
+SIMDBEZIER_PART void evaluate_block(const ScatteredTask<T>& task, const NetShape& shape,
+                                    std::size_t k, std::size_t count) {
+  using V = vec<T>;
+  const SampleLanes<V> lanes(task, k, count);
+  const CellColumns<V> columns(lanes.x, shape.cells_u(), task.watertight);
+  const CellColumns<V> rows(lanes.y, shape.cells_v(), task.watertight);
+  ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
+  ColumnOrigins<V> origins;
+  SampleJet<V> jet;
+  std::size_t edge = kEdges; // v = const, where all lanes are on it
+  const bool one_row = kIsScalar<V> || (all_equal<kLanes<V>>(lanes.patch, *lanes.patch) &&
+                                        !(rows.any_low && rows.any_high));
+  if (one_row) {
+    const CellRow<T> cells(task, shape, *lanes.patch, rows.any_low ? 0 : 1);
+    const typename ShapeColumns<P, V>::Edges edges(shape, columns, lanes.x, task.watertight,
+                                                   task.first_component, cells);
+    const auto all_on = [&](T local) SIMDBEZIER_INLINE_LAMBDA {
+      return task.watertight && all_of<V>(rows.local.x == broadcast<V>(local));
+    };
+    edge = all_on(T(-0.5)) ? detail::kEdgeV0 : all_on(T(0.5)) ? detail::kEdgeV1 : kEdges;
+    if constexpr (P::kKnown) {
+      polynomials.build(cells, edges, origins);
+    } else {
+      build_columns(polynomials, cells, edges, origins);
+    }
+    polynomials.template evaluate<1>(&rows.local.x, &jet);
+    if (edge < kEdges) [[unlikely]] {
+      edges.replace_row(edge, jet);
+    }
+  } else if constexpr (!kIsScalar<V>) {
+    build_mixed(task, shape, lanes, polynomials, origins);
+    polynomials.template evaluate<1>(&rows.local.x, &jet);
+  }
+  store_block<P>(task, SampleRange<V>{0, k, count, 0, lanes.x, lanes.y, {}}, jet);
+
+  const MaskOf<V> inside = are_inside(columns.local.x) & are_inside(rows.local.x);
+  V squared = broadcast<V>(T(1)); // what passes
+  V floor = broadcast<V>(T(0));
+  const auto all_pass = [&] SIMDBEZIER_INLINE_LAMBDA {
+    const MaskOf<V> pass = squared > floor;
+    return all_of<V>(inside & pass);
+  };
+  if (P::kDepth > 0 &&
+      (task.out[output_index(Output::normal)].wanted() || wants_curvatures(task))) {
+    V n[3];
+    squared = cross_product(jet.du, jet.dv, n);
+    floor = floors_of<P, true>(task, lanes, jet, squared);
+    if (!all_pass()) {
+      floor = floors_of<P, false>(task, lanes, jet, squared);
+      floor = floor_inside(lanes.y, floor_inside(lanes.x, floor));
+    }
+  }
+  if (!all_pass()) [[unlikely]] {
+    finish_unusual<P>(task, lanes, columns.local.x, rows.local.x, one_row || !task.watertight,
+                      edge < kEdges || !task.watertight, squared, floor);
+  }
+}
+
+/// This is evaluate_block() for any degrees.
+template <std::size_t kDepth, bool kRational, typename T>
+SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size_t k,
+                                         std::size_t count) {
+  using P = ShapePlan<kDepth, kRational, 0, 0, 0>;
+  evaluate_block<P>(task, P::shape(*task.shape), k, count);
 }
 
 /// Asks for the coefficients of a sample that comes soon.
 template <typename T>
 SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShape& shape,
                                      std::size_t k) {
-  constexpr std::size_t kAhead = 8;
+  constexpr std::size_t kAhead = 16;
   if (k + kAhead < task.count) {
     const std::size_t next = k + kAhead;
     const bool high_u = shape.cells_u() == 2 && half_centred(task, task.u[next]) >= T(0);
@@ -157,31 +281,20 @@ SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShap
 
 template <typename P, typename T>
 SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
-  using V = vec<T>;
+  constexpr std::size_t kN = kLanes<vec<T>>;
   const NetShape shape = P::shape(*task.shape);
-  constexpr std::size_t kFew = 3; // samples that take longer together than one after the other
-  for (std::size_t k = 0; k < task.count;) {
-    if (task.prefetch) {
-      prefetch_sample(task, shape, k);
+  for (std::size_t k = 0; k < task.count; k += kN) {
+    const std::size_t count = task.count - k < kN ? task.count - k : kN;
+    for (std::size_t i = 0; task.prefetch && i < count; ++i) {
+      prefetch_sample(task, shape, k + i);
     }
-    std::size_t count = 1;
-    while (count < kLanes<V> && k + count < task.count && task.patch[k + count] == task.patch[k]) {
-      ++count;
-    }
-    if ((kLanes<V>) > 1 && count <= kFew && evaluate_single<P>(task, shape, k)) {
-      ++k;
-      continue;
-    }
-    std::uint32_t special = evaluate_together<P>(task, shape, k, count, count == 1);
-    for (std::size_t i = 0; i < count && special != 0; ++i, special >>= 1) {
-      if (special % 2 != 0) {
-        if (task.status != nullptr) {
-          task.status[k + i] = SampleStatus::regular;
-        }
-        evaluate_together<P>(task, shape, k + i, 1, true);
+    if constexpr (P::kKnown) {
+      if (count == kN) {
+        evaluate_block<P>(task, shape, k, kN);
+        continue;
       }
     }
-    k += count;
+    evaluate_together<P::kDepth, P::kWeighted>(task, k, count);
   }
 }
 

@@ -98,9 +98,7 @@ template <typename T>
 void find_common_floors(SetStorage<T>& storage) noexcept {
   const DefaultFpEnvironment environment; // for denormal floors
   for (PatchStorage<T>& bucket : storage.buckets) {
-    if (bucket.shape.is_bicubic()) {
-      bucket.common_floor = common_floor(bucket.normal_floor, bucket.count);
-    }
+    bucket.common_floor = common_floor(bucket.normal_floor, bucket.count * bucket.shape.floors());
   }
 }
 

@@ -27,7 +27,7 @@ struct PatchStorage {
   /// count * shape.floors(): |du x dv|^2 above it needs no second look; with weights, what that
   /// floor is made of at a sample (pack/shape_floor.hpp).
   T* normal_floor = nullptr;
-  /// No bicubic patch has a higher floor; infinity where floors differ much.
+  /// No value of normal_floor is higher; infinity where these differ much.
   T common_floor = std::numeric_limits<T>::infinity();
 
   /// Bytes of one patch in all arrays.
