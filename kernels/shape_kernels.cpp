@@ -1,6 +1,8 @@
-// Compiled once per instruction set: kernels for patches of any shape.
+// Compiled once per instruction set: kernels for patches of any shape, and what second looks at
+// normals begin with.
 #include "kernels/derivative/derivative_kernel.hpp"
 #include "kernels/pack/shape_pack_kernel.hpp"
+#include "kernels/poly/normal_start.hpp"
 #include "kernels/shape/shape_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -14,6 +16,13 @@ constexpr detail::ShapeTable<T> make_shape_table() {
   table.pack_f32 = shape_pack_kernel<T, float>;
   table.pack_f64 = shape_pack_kernel<T, double>;
   return table;
+}
+
+void start_normals(const detail::NetShape& shape, const detail::GivenNet& net, double tolerance,
+                   const double* x, const double* y, std::size_t count, double* normals,
+                   std::size_t step, double* orders) {
+  const auto start = shape.degree_u == 3 && shape.degree_v == 3 ? start_on<4> : start_on<0>;
+  start(shape, net, tolerance, x, y, count, normals, step, orders);
 }
 
 extern const detail::ShapeTable<float> shape_table_f32;

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "kernels/poly/normal_start.hpp"
+#include "kernels/simd/transpose.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -36,6 +36,13 @@ SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
   const MaskOf<V> above = t >= broadcast<V>(T(-0.5));
   return select_where<V>(below & above, floor, no_floor<V>());
 }
+
+/// Finds unit normals of a polynomial patch's samples by their leading coefficient
+/// (poly/normal_start.hpp), component by component, and the numbers of the coefficients, or -1
+/// where nothing is certain; in whole registers. shape_kernels.cpp has it for all objects.
+void start_normals(const detail::NetShape& shape, const detail::GivenNet& net, double tolerance,
+                   const double* x, const double* y, std::size_t count, double* normals,
+                   std::size_t step, double* orders);
 
 /// Samples of one patch whose normals did not pass. They are rare, so all of this is kept out of
 /// line.
@@ -79,15 +86,14 @@ public:
       x_[k] = y_[k] = 1;
     }
     double normals[3][kMost + kWideLanes];
-    double orders[kMost + kWideLanes]; ///< of the coefficients that have decided, or -1
+    double orders[kMost + kWideLanes];
     if (shape.rational) {
       for (std::size_t k = 0; k < count_; ++k) {
         orders[k] = -1;
       }
-    } else if (shape.degree_u == 3 && shape.degree_v == 3) {
-      start<4>(net, normals, orders);
     } else {
-      start<0>(net, normals, orders);
+      start_normals(shape, net, detail::kLimitTolerance<T>, x_, y_, count_, normals[0],
+                    kMost + kWideLanes, orders);
     }
     for (std::size_t k = 0; k < count_; ++k) {
       T normal[3];
@@ -107,17 +113,6 @@ public:
 
 private:
   static constexpr std::size_t kMost = 4 * detail::kMaxLanes;
-
-  template <std::size_t kKnown>
-  SIMDBEZIER_KERNEL void start(const detail::GivenNet& net, double (*normals)[kMost + kWideLanes],
-                               double* orders) const {
-    const NormalStart<kKnown> patch(net, static_cast<std::size_t>(task_.shape->degree_u + 1),
-                                    static_cast<std::size_t>(task_.shape->degree_v + 1),
-                                    detail::kLimitTolerance<T>);
-    for (std::size_t k = 0; k < count_; k += kWideLanes) {
-      patch.find(x_ + k, y_ + k, normals[0] + k, kMost + kWideLanes, orders + k);
-    }
-  }
 
   void put(std::size_t at, SampleStatus status, const T normal[3]) const {
     const detail::Planes<T>& to = task_.out[output_index(Output::normal)];

@@ -317,4 +317,17 @@ private:
   Differences along_v_;
 };
 
+/// As start_normals().
+template <std::size_t kKnown>
+SIMDBEZIER_KERNEL void start_on(const detail::NetShape& shape, const detail::GivenNet& net,
+                                double tolerance, const double* x, const double* y,
+                                std::size_t count, double* normals, std::size_t step,
+                                double* orders) {
+  const NormalStart<kKnown> patch(net, static_cast<std::size_t>(shape.degree_u + 1),
+                                  static_cast<std::size_t>(shape.degree_v + 1), tolerance);
+  for (std::size_t k = 0; k < count; k += kWideLanes) {
+    patch.find(x + k, y + k, normals + k, step, orders + k);
+  }
+}
+
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
