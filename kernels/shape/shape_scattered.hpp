@@ -4,7 +4,6 @@
 // patch and one edge; the others are rare, and are evaluated again, one by one.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "kernels/poly/half_centred.hpp"
@@ -13,7 +12,7 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// The samples [first, first + count) of a task, at most a register of them; further lanes repeat
-/// the last.
+/// the last. V = T: a single sample.
 template <typename V>
 struct SampleLanes {
   using T = ScalarOf<V>;
@@ -22,7 +21,7 @@ struct SampleLanes {
   std::size_t first;
   std::size_t count;
   const std::uint32_t* patch; ///< of each lane
-  V x;                        ///< half-centred; nan where a single sample's is not finite
+  V x;                        ///< half-centred; of a single sample nan where it is not finite
   V y;
 
   SIMDBEZIER_PART SampleLanes(const ScatteredTask<T>& task, std::size_t first_sample,
@@ -30,13 +29,6 @@ struct SampleLanes {
       : first(first_sample), count(samples), patch(task.patch + first) {
     const T* u = task.u + first;
     const T* v = task.v + first;
-    if (count == 1) { // much the same, but not by way of memory
-      std::fill_n(patches_, kN, *patch);
-      patch = patches_;
-      x = broadcast<V>(finite_half_centred(task, *u));
-      y = broadcast<V>(finite_half_centred(task, *v));
-      return;
-    }
     if (count < kN) {
       for (std::size_t i = 0; i < kN; ++i) {
         const std::size_t from = i < count ? i : count - 1;
@@ -48,8 +40,13 @@ struct SampleLanes {
       u = values_[0];
       v = values_[1];
     }
-    x = half_centred(task, load_vector<V>(u));
-    y = half_centred(task, load_vector<V>(v));
+    if constexpr (kIsScalar<V>) {
+      x = finite_half_centred(task, *u);
+      y = finite_half_centred(task, *v);
+    } else {
+      x = half_centred(task, load_vector<V>(u));
+      y = half_centred(task, load_vector<V>(v));
+    }
   }
   SampleLanes(const SampleLanes&) = delete;
 
@@ -102,6 +99,20 @@ SIMDBEZIER_PART void build_mixed(const ScatteredTask<ScalarOf<V>>& task, const N
     find_mixed_origins<P>(task, shape, cell, room);
   }
   columns.build_mixed(from, origins ? &room : nullptr);
+}
+
+/// Builds the columns of a single sample off edges u = const in a set without origins: its lanes
+/// are powers of Y, which takes a quarter of the time. Returns whether it did.
+template <typename P, typename V>
+SIMDBEZIER_PART bool build_across(const ScatteredTask<ScalarOf<V>>& task, const CellColumns<V>& at,
+                                  const CellRow<ScalarOf<V>>& cells, ShapeColumns<P, V>& columns) {
+  if constexpr (kIsScalar<V> && !kIsScalar<vec<ScalarOf<V>>>) {
+    if (!at.local.on_edge && task.origins == nullptr) {
+      columns.build_across(at.any_low ? cells.low : cells.high);
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Stores all outputs that a task wants, normals and curvatures before any second look.
@@ -196,11 +207,11 @@ SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task,
   }
 }
 
-/// Evaluates samples [k, k + count), at most a register of them.
-template <typename P, typename T>
-SIMDBEZIER_PART void evaluate_block(const ScatteredTask<T>& task, const NetShape& shape,
+/// Evaluates samples [k, k + count), as SampleLanes has them.
+template <typename P, typename V>
+SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
                                     std::size_t k, std::size_t count) {
-  using V = vec<T>;
+  using T = ScalarOf<V>;
   const SampleLanes<V> lanes(task, k, count);
   const CellColumns<V> columns(lanes.x, shape.cells_u(), task.watertight);
   const CellColumns<V> rows(lanes.y, shape.cells_v(), task.watertight);
@@ -220,7 +231,7 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<T>& task, const NetShape
     edge = all_on(T(-0.5)) ? detail::kEdgeV0 : all_on(T(0.5)) ? detail::kEdgeV1 : kEdges;
     if constexpr (P::kKnown) {
       polynomials.build(cells, edges, origins);
-    } else {
+    } else if (!build_across(task, columns, cells, polynomials)) {
       build_columns(polynomials, cells, edges, origins);
     }
     polynomials.template evaluate<1>(&rows.local.x, &jet);
@@ -261,7 +272,9 @@ template <std::size_t kDepth, bool kRational, typename T>
 SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size_t k,
                                          std::size_t count) {
   using P = ShapePlan<kDepth, kRational, 0, 0, 0>;
-  evaluate_block<P>(task, P::shape(*task.shape), k, count);
+  const NetShape shape = P::shape(*task.shape);
+  count == 1 ? evaluate_block<P, T>(task, shape, k, 1)
+             : evaluate_block<P, vec<T>>(task, shape, k, count);
 }
 
 /// Asks for the coefficients of a sample that comes soon.
@@ -290,7 +303,7 @@ SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
     }
     if constexpr (P::kKnown) {
       if (count == kN) {
-        evaluate_block<P>(task, shape, k, kN);
+        evaluate_block<P, vec<T>>(task, shape, k, kN);
         continue;
       }
     }

@@ -6,7 +6,7 @@
 # KB of code that the kernels may have, so that a new strategy does not go unnoticed: the largest of
 # all instruction sets, rounded up.
 set(budget_bicubic 2000)
-set(budget_shape 1300)
+set(budget_shape 1400)
 set(budget_curve 600)
 set(budget_net 210)
 set(budget_mesh 65)
