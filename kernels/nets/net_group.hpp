@@ -1,7 +1,7 @@
 // Takes a group of control nets from memory to [value][lane], one patch a lane, and back.
 #pragma once
 
-#include "kernels/simd/squares.hpp"
+#include "kernels/nets/net_blocks.hpp"
 #include "src/storage/one_point.hpp"
 #include "src/tables/net_table.hpp"
 
