@@ -130,7 +130,7 @@ private:
     static SIMDBEZIER_PART void next(const Wide* from, std::size_t n, Wide low, Wide high,
                                      Wide* to) {
       to[n] = from[n - 1] * high;
-      for (std::size_t i = n - 1; i > 0; --i) {
+      for (std::size_t i = n; i-- > 1;) { // to 1
         to[i] = from[i] * low + from[i - 1] * high;
       }
       to[0] = from[0] * low;

@@ -244,10 +244,12 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
   }
   store_block<P>(task, SampleRange<V>{0, k, count, 0, lanes.x, lanes.y, {}}, jet);
 
-  const MaskOf<V> inside = are_inside(columns.local.x) & are_inside(rows.local.x);
+  const MaskOf<V> inside_u = are_inside(columns.local.x);
+  const MaskOf<V> inside_v = are_inside(rows.local.x);
+  const MaskOf<V> inside = inside_u & inside_v;
   V squared = broadcast<V>(T(1)); // what passes
   V floor = broadcast<V>(T(0));
-  const auto all_pass = [&] SIMDBEZIER_INLINE_LAMBDA {
+  const auto all_pass = [&]() SIMDBEZIER_INLINE_LAMBDA {
     const MaskOf<V> pass = squared > floor;
     return all_of<V>(inside & pass);
   };
