@@ -4,12 +4,21 @@
 // patch and one edge; the others are rare, and are evaluated again, one by one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "kernels/poly/half_centred.hpp"
 #include "kernels/shape/shape_outputs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Whether a single sample has code of its own, without lanes. WebAssembly does without: its code
+/// goes through the network, and a call from JavaScript takes longer than a sample.
+#if defined(SIMDBEZIER_KERNELS_SIMD128)
+inline constexpr bool kSinglesApart = false;
+#else
+inline constexpr bool kSinglesApart = true;
+#endif
 
 /// The samples [first, first + count) of a task, at most a register of them; further lanes repeat
 /// the last. V = T: a single sample.
@@ -29,6 +38,13 @@ struct SampleLanes {
       : first(first_sample), count(samples), patch(task.patch + first) {
     const T* u = task.u + first;
     const T* v = task.v + first;
+    if (!kSinglesApart && count == 1) {
+      std::fill_n(patches_, kN, *patch);
+      patch = patches_;
+      x = broadcast<V>(finite_half_centred(task, *u));
+      y = broadcast<V>(finite_half_centred(task, *v));
+      return;
+    }
     if (count < kN) {
       for (std::size_t i = 0; i < kN; ++i) {
         const std::size_t from = i < count ? i : count - 1;
@@ -275,8 +291,12 @@ SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size
                                          std::size_t count) {
   using P = ShapePlan<kDepth, kRational, 0, 0, 0>;
   const NetShape shape = P::shape(*task.shape);
-  count == 1 ? evaluate_block<P, T>(task, shape, k, 1)
-             : evaluate_block<P, vec<T>>(task, shape, k, count);
+  if constexpr (kSinglesApart) {
+    if (count == 1) {
+      return evaluate_block<P, T>(task, shape, k, 1);
+    }
+  }
+  evaluate_block<P, vec<T>>(task, shape, k, count);
 }
 
 /// Asks for the coefficients of a sample that comes soon.
