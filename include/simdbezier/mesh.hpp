@@ -143,12 +143,10 @@ template <typename T, typename S>
 /// Chooses rates and lays out again, for another tolerance, grid, crease or view of a model whose
 /// set and topology a plan has already: a slider that changes how fine a mesh is, or a camera.
 /// nets:    those that the plan was made of, unchanged.
-/// plan:    its set, topology, errors and diagonal are read, so that a caller may also fill them
-/// in.
-///          No patches were left out or cut (MeshPlan::patches is empty).
-/// options: those of topology, RateOptions::errors, drop_repeated, split_edges and local_origin
-/// have
-///          no meaning: what the plan was made with holds.
+/// plan:    its set, topology, errors and diagonal are read, so that a caller may fill them in as
+///          well. No patches were left out or cut (MeshPlan::patches is empty).
+/// options: those of topology, RateOptions::errors, drop_repeated, split_edges and local_origin do
+///          not count: what the plan was made with holds.
 /// Returns: as choose_rates() and lay_out_mesh(); bad_topology for other nets, bad_rates if errors
 ///          are not one value a patch. On an error the plan keeps what is read, with the report and
 ///          the fault.

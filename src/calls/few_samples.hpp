@@ -57,15 +57,12 @@ private:
     std::size_t stride; ///< of triples; 0: a plane
 
     [[nodiscard]] MemoryRange bytes() const noexcept { return {first, values * sizeof(T)}; }
-    /// Whether both are triples of the same records, side by side.
-    [[nodiscard]] bool is_beside(const Range& other) const noexcept {
-      const auto place = [](const Range& range) {
-        return reinterpret_cast<std::uintptr_t>(range.first);
-      };
-      const std::uintptr_t apart =
-          place(*this) < place(other) ? place(other) - place(*this) : place(*this) - place(other);
-      return stride > 0 && stride == other.stride && apart >= 3 * sizeof(T) &&
-             apart + 3 * sizeof(T) <= stride * sizeof(T);
+    [[nodiscard]] MemoryRange triple() const noexcept { return {first, 3 * sizeof(T)}; }
+    /// Whether the other one has triples of the same records, behind these.
+    [[nodiscard]] bool is_before(const Range& other) const noexcept {
+      const MemoryRange record{first, stride * sizeof(T)};
+      return stride == other.stride && record.contains(other.triple()) &&
+             !triple().meets(other.triple());
     }
   };
 
@@ -105,8 +102,8 @@ private:
     }
     for (std::size_t i = 1; i < range_count_ && !ascend; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        usual = usual &&
-                (ranges_[i].is_beside(ranges_[j]) || !ranges_[i].bytes().meets(ranges_[j].bytes()));
+        usual = usual && (ranges_[i].is_before(ranges_[j]) || ranges_[j].is_before(ranges_[i]) ||
+                          !ranges_[i].bytes().meets(ranges_[j].bytes()));
       }
     }
     return usual && group_count_ > 0;

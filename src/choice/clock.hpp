@@ -1,5 +1,5 @@
-// The clock of the measurements by which calls choose between ways that give the same bits. It is a
-// file of its own so that tests can put another one in its place.
+// The clock of the measurements by which calls choose between ways that give the same bits, and of
+// PlanSeconds. It is a file of its own so that tests can put another one in its place.
 #pragma once
 
 #include <cstdint>

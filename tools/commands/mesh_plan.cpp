@@ -83,11 +83,7 @@ MeshOptions mesh_options(const Arguments& arguments, const PlannedModel& model) 
 template <typename T>
 std::vector<double> tolerances_without(double storage_error, std::span<const ControlNets<T>> nets,
                                        const MeshOptions& options) {
-  std::size_t patches = 0;
-  for (const ControlNets<T>& view : nets) {
-    patches += view.count;
-  }
-  std::vector<double> tolerances(patches, kUnlimited);
+  std::vector<double> tolerances(options.rates.errors.size(), kUnlimited);
   if (options.pixels != kUnlimited) {
     check(pixel_tolerances<T>(nets, options.camera, options.pixels, tolerances));
   }

@@ -23,8 +23,8 @@ struct PlannedModel {
 /// wish no mesh can meet.
 [[nodiscard]] MeshOptions mesh_options(const Arguments& arguments, const PlannedModel& model);
 
-/// Returns tolerances of patches that leave room for what storing adds to distances. Their order is
-/// that of `nets`.
+/// Returns the tolerance of every patch of `nets`, less what storing adds to distances. options:
+/// with RateOptions::errors.
 template <typename T>
 [[nodiscard]] std::vector<double> tolerances_without(double storage_error,
                                                      std::span<const ControlNets<T>> nets,

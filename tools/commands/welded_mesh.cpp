@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include <tools/commands/mesh_links.hpp>
@@ -14,6 +13,15 @@
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
+
+namespace {
+
+template <typename T>
+std::span<const ControlNets<T>> views(const PatchNets<T>& nets) {
+  return nets.nets;
+}
+
+} // namespace
 
 template <typename T>
 WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats& stats)
@@ -41,15 +49,15 @@ void WeldedMesh<T>::plan(ModelPart& part) {
     }
   }
   stats_.diagonal = diagonal_of(box_);
-  MeshOptions options = mesh_options(arguments_, {name_, stats_.diagonal, is_far(box_), numbers_});
+  const PlannedModel model{name_, stats_.diagonal, is_far(box_), numbers_};
+  MeshOptions options = mesh_options(arguments_, model);
   options.rates.errors = errors;
-  plan_with_storage(nets.nets, options);
+  plan_ = plan_mesh<T>(views(nets), options);
+  check_plan(plan_.report, plan_.fault, arguments_, model, 0);
+  leave_room_for_storage(views(nets), options, model);
   part.file = {};
-  if (!plan_.patches.empty()) { // of a whole model
+  if (!plan_.patches.empty()) { // of a whole model, whose patches are left out or cut
     own_ = {0, plan_.patches.size()};
-    for (std::uint32_t& patch : plan_.patches) {
-      patch = numbers_.empty() ? patch : numbers_[patch];
-    }
     numbers_ = plan_.patches;
   }
   // Nothing is claimed to be exact, even if no rounding can be found.
@@ -57,29 +65,28 @@ void WeldedMesh<T>::plan(ModelPart& part) {
   deviation_ = std::max(std::ranges::max(own), std::numeric_limits<double>::min());
 }
 
-// Distances first leave no room for what storing adds, which they usually need not.
+// The first plan leaves no room for what storing adds to distances, because it usually needs none.
 template <typename T>
-void WeldedMesh<T>::plan_with_storage(std::span<const ControlNets<T>> nets, MeshOptions options) {
-  const PlannedModel model{name_, stats_.diagonal, is_far(box_), numbers_};
-  plan_ = plan_mesh<T>(nets, options);
-  check_plan(plan_.report, plan_.fault, arguments_, model, 0);
+void WeldedMesh<T>::leave_room_for_storage(std::span<const ControlNets<T>> nets,
+                                           MeshOptions options, const PlannedModel& model) {
   const double stored = storage_error<T>(arguments_.mesh.format, contents());
   if (!arguments_.mesh.adaptive() || stored == 0) {
     return;
   }
   const std::vector<double> room = tolerances_without(stored, nets, options);
-  const auto leaves_room = [&](std::size_t k) {
-    return plan_.deviations[k] <= room[plan_.patches.empty() ? k : plan_.patches[k]];
-  };
-  std::size_t patches = 0;
-  while (patches < plan_.deviations.size() && leaves_room(patches)) {
-    ++patches;
+  bool has_room = true;
+  for (std::size_t k = 0; k < plan_.deviations.size(); ++k) {
+    has_room &= plan_.deviations[k] <= room[plan_.patches.empty() ? k : plan_.patches[k]];
   }
-  if (patches == plan_.deviations.size()) {
+  if (has_room) {
     return;
   }
   options.rates.tolerances = room;
-  plan_ = plan_mesh<T>(nets, options);
+  if (plan_.patches.empty()) {
+    plan_again(nets, options, plan_);
+  } else {
+    plan_ = plan_mesh<T>(nets, options);
+  }
   RateFault fault = plan_.fault;
   if (fault.limit != RateLimit::none) {
     fault.tolerance = tolerances_without(0, nets, options)[plan_.report.item];

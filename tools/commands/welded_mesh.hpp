@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
@@ -11,7 +10,6 @@
 #include <tools/commands/mesh_plan.hpp>
 #include <tools/commands/mesh_source.hpp>
 #include <tools/commands/vertex_places.hpp>
-#include <tools/formats/patch_file.hpp>
 #include <tools/parts/model_part.hpp>
 #include <tools/parts/part_links.hpp>
 
@@ -42,7 +40,8 @@ public:
 
 private:
   void plan(ModelPart& part);
-  void plan_with_storage(std::span<const ControlNets<T>> nets, MeshOptions options);
+  void leave_room_for_storage(std::span<const ControlNets<T>> nets, MeshOptions options,
+                              const PlannedModel& model);
   void find_links(const std::vector<ModelPart::Lent>& lent);
   void tell_stats();
   void evaluate(SetRange block, std::size_t stride, StageSeconds& seconds);
