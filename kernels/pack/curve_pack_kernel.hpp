@@ -17,16 +17,8 @@ class CurveGroup {
 public:
   explicit CurveGroup(const detail::CurvePackTask<T, S>& task)
       : task_(task), shape_(task.shape), order_(shape_.order()), curve_values_(shape_.values()),
-        components_(static_cast<std::size_t>(shape_.components)), row_{shape_.degree, 0,
-                                                                       shape_.components,
-                                                                       shape_.rational},
-        reader_(nets_, row_, task.relative_to) {
-    nets_.points = task.curves.points;
-    nets_.patch_stride = task.curves.curve_stride;
-    nets_.point_stride = task.curves.point_stride;
-    nets_.component_stride = task.curves.component_stride;
-    nets_.weights = task.curves.weights;
-  }
+        components_(static_cast<std::size_t>(shape_.components)),
+        reader_(task.rows, task.relative_to) {}
 
   /// Packs `count` curves from the first on, 1 <= count <= kWideLanes; lanes behind them repeat the
   /// last one. Returns false where something may not be finite, or a weight not be positive.
@@ -45,7 +37,7 @@ public:
     for (std::size_t c = 0; c < components_; ++c) {
       pack_component(c, floor, sizes);
     }
-    put(task_.tangent_floor, 1, 0, floor.value());
+    store_value(floor.value(), task_.tangent_floor + first_, 1, count_);
     if (detail::is_even_odd(shape_.degree)) {
       keep_from_zero();
     }
@@ -56,19 +48,12 @@ public:
   }
 
 private:
-  /// Stores a value, rounded, at place `at` of every curve's `stride` values; -0 becomes +0.
-  SIMDBEZIER_INLINE void put(T* array, std::size_t stride, std::size_t at, Wide value) const {
-    alignas(64) double lanes[kWideLanes];
-    store_vector<Wide>(lanes, value);
-    T* to = array + first_ * stride + at;
-    for (std::size_t p = 0; p < count_; ++p, to += stride) {
-      *to = static_cast<T>(lanes[p]) + T(0);
-    }
-  }
   SIMDBEZIER_INLINE void put_value(std::size_t cell, std::size_t channel, std::size_t k,
                                    Wide value) const {
-    put(task_.values, curve_values_,
-        cell * shape_.cell_values() + channel * shape_.channel_values() + k, value);
+    store_value(value,
+                task_.values + first_ * curve_values_ + cell * shape_.cell_values() +
+                    channel * shape_.channel_values() + k,
+                curve_values_, count_);
   }
 
   /// Forms the weights of both cells, which the components need.
@@ -151,7 +136,7 @@ private:
     for (std::size_t p = 0; p < count_; ++p) {
       const S* const given = task_.control_points + (first_ + p) * shape_.control_values();
       if (detail::are_one_point(given, static_cast<std::ptrdiff_t>(shape_.channels()), order_,
-                                components_, 1, task_.curves.weights)) {
+                                components_, 1, task_.rows.weights)) {
         pack_point(task_.values + (first_ + p) * curve_values_);
       }
     }
@@ -198,8 +183,6 @@ private:
   std::size_t components_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  const detail::NetShape row_; ///< the polygon's
-  ControlNets<S> nets_;
   NetReader<T, S> reader_;
   Wide weights_[detail::kMostOrder];
   W cell_weights_[2][detail::kMostOrder]; ///< coefficients
@@ -209,8 +192,7 @@ private:
 template <typename T, typename S>
 detail::PackDoubt curve_pack_kernel(const detail::CurvePackTask<T, S>& task, std::size_t begin,
                                     std::size_t end) {
-  CurveGroup<T, S> group(task);
-  return pack_groups(group, begin, end);
+  return pack_groups<CurveGroup<T, S>>(task, begin, end);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -50,19 +50,6 @@ struct CentringFactors {
 };
 inline constexpr CentringFactors kCentring;
 
-/// Packs [begin, end) by `group`, a register of patches or curves at a time, up to the first group
-/// that may hold a fault.
-template <typename Group>
-SIMDBEZIER_INLINE detail::PackDoubt pack_groups(Group& group, std::size_t begin, std::size_t end) {
-  for (std::size_t at = begin; at < end; at += kWideLanes) {
-    const std::size_t count = end - at < kWideLanes ? end - at : kWideLanes;
-    if (!group.pack(at, count)) {
-      return {at, at + count};
-    }
-  }
-  return {end, end};
-}
-
 /// Replaces control values values[i * step], 0 <= i <= degree, by the half-centred power
 /// coefficients of the polynomial. `degree` is a constant where the caller knows it.
 template <typename W>

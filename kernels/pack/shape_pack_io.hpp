@@ -3,9 +3,8 @@
 // nets of one row.
 #pragma once
 
-#include "kernels/pack/bicubic_pack_kernel.hpp"
+#include "kernels/pack/pack_groups.hpp"
 #include "kernels/pack/shape_pack_formulas.hpp"
-#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -50,9 +49,12 @@ public:
   using W = CarriedIn<T, S>;
 
   /// All of it has to outlive this. relative_to: of the first three components.
-  NetReader(const ControlNets<S>& nets, const detail::NetShape& shape, const double* relative_to)
-      : nets_(nets), shape_(shape), relative_to_(relative_to), order_u_(shape.order_u()),
-        order_v_(shape.order_v()) {}
+  NetReader(const ControlNets<S>& nets, const double* relative_to)
+      : nets_(nets), relative_to_(relative_to),
+        order_u_(static_cast<std::size_t>(nets.degree_u) + 1),
+        order_v_(static_cast<std::size_t>(nets.degree_v) + 1),
+        channels_(static_cast<std::size_t>(nets.components) +
+                  (nets.weights == Weights::none ? 0 : 1)) {}
 
   /// Begins with patches [first, first + count); lanes behind them repeat the last one.
   void begin(std::size_t first, std::size_t count) {
@@ -76,8 +78,8 @@ public:
   /// Copies all values of the first `count` patches, as they were given except for the sign of
   /// zeros.
   void copy(std::size_t count, S* to) const {
-    const std::size_t values = order_u_ * order_v_ * shape_.channels();
-    const auto channels = static_cast<std::ptrdiff_t>(shape_.channels());
+    const std::size_t values = order_u_ * order_v_ * channels_;
+    const auto channels = static_cast<std::ptrdiff_t>(channels_);
     const bool packed =
         nets_.component_stride == 1 && nets_.point_stride == channels &&
         (order_v_ == 1 || nets_.row_stride == static_cast<std::ptrdiff_t>(order_u_) * channels);
@@ -127,7 +129,7 @@ private:
       for (std::size_t i = 0; i < order_u_; ++i) {
         const S* const point = net + static_cast<std::ptrdiff_t>(j) * nets_.row_stride +
                                static_cast<std::ptrdiff_t>(i) * nets_.point_stride;
-        for (std::size_t c = 0; c < shape_.channels(); ++c) {
+        for (std::size_t c = 0; c < channels_; ++c) {
           *to++ = point[static_cast<std::ptrdiff_t>(c) * nets_.component_stride] + S(0);
         }
       }
@@ -135,26 +137,12 @@ private:
   }
 
   const ControlNets<S>& nets_;
-  const detail::NetShape& shape_;
   const double* relative_to_;
   std::size_t order_u_;
   std::size_t order_v_;
+  std::size_t channels_;
   const S* net_[kWideLanes] = {}; ///< every lane's first control point
 };
-
-/// Stores kTransposed values of each of the first `count` lanes.
-template <typename T>
-SIMDBEZIER_INLINE void store_lanes(const Wide* values, T* to, std::ptrdiff_t stride,
-                                   std::size_t count) {
-  if (count == kWideLanes) {
-    return store_transposed(values, to, stride);
-  }
-  alignas(64) T lanes[kWideLanes * kTransposed];
-  store_transposed(values, lanes, static_cast<std::ptrdiff_t>(kTransposed));
-  for (std::size_t p = 0; p < count; ++p) {
-    copy_values(lanes + p * kTransposed, kTransposed, to + static_cast<std::ptrdiff_t>(p) * stride);
-  }
-}
 
 /// Writes values, a register each, to consecutive places of every lane's block: those of a channel
 /// at a time, of which what does not fill a block waits for the next channel's.

@@ -4,12 +4,11 @@
 // one channel's net, in the first-level cache, rather than all of them.
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/pack/collapsed_edges.hpp"
 #include "kernels/pack/shape_floor.hpp"
 #include "kernels/pack/shape_pack_formulas.hpp"
 #include "kernels/pack/shape_pack_io.hpp"
+#include "kernels/pack/zero_signs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -21,10 +20,10 @@ class ShapeGroup {
 public:
   using W = CarriedIn<T, S>;
 
-  explicit ShapeGroup(const detail::NetPackTask<T, S>& task)
+  explicit ShapeGroup(const detail::PackTask<T, S>& task)
       : task_(task), shape_(task.shape), order_u_(shape_.order_u()), order_v_(shape_.order_v()),
         components_(static_cast<std::size_t>(shape_.components)),
-        reader_(task.nets, shape_, task.relative_to), collapsed_(task) {}
+        reader_(task.nets, task.relative_to), collapsed_(task) {}
 
   /// Packs `count` nets from the first on, 1 <= count <= kWideLanes. Returns false where something
   /// may not be finite, or a weight not be positive.
@@ -74,11 +73,8 @@ private:
     Wide floors[2];
     floor.finish(floors);
     for (std::size_t f = 0; f < shape_.floors(); ++f) {
-      alignas(64) double lanes[kWideLanes];
-      store_vector<Wide>(lanes, floors[f]);
-      for (std::size_t p = 0; p < count_; ++p) {
-        task_.normal_floor[(first_ + p) * shape_.floors() + f] = static_cast<T>(lanes[p]);
-      }
+      store_value(floors[f], task_.normal_floor + first_ * shape_.floors() + f, shape_.floors(),
+                  count_);
     }
   }
 
@@ -247,13 +243,13 @@ private:
     edge_blocks_.add(along);
   }
 
-  const detail::NetPackTask<T, S>& task_;
+  const detail::PackTask<T, S>& task_;
   const detail::NetShape& shape_;
   const std::size_t order_u_;
   const std::size_t order_v_;
   const std::size_t components_;
   NetReader<T, S> reader_;
-  CollapsedEdges<detail::NetPackTask<T, S>> collapsed_;
+  CollapsedEdges<detail::PackTask<T, S>> collapsed_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   TinyEvenCoefficients<T> tiny_; ///< of a cell
@@ -270,12 +266,10 @@ private:
   W edge_weights_[kMostOrder * detail::kEdges];
 };
 
-/// Packs patches [begin, end) up to the first group that may hold a fault; see PackDoubt.
 template <typename T, typename S>
-detail::PackDoubt shape_pack_kernel(const detail::NetPackTask<T, S>& task, std::size_t begin,
+detail::PackDoubt shape_pack_kernel(const detail::PackTask<T, S>& task, std::size_t begin,
                                     std::size_t end) {
-  ShapeGroup<T, S> group(task);
-  return pack_groups(group, begin, end);
+  return pack_groups<ShapeGroup<T, S>>(task, begin, end);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

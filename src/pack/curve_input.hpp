@@ -8,6 +8,17 @@
 
 namespace simdbezier::detail {
 
+/// Polygons as nets of one row.
+template <typename S>
+[[nodiscard]] ControlNets<S> as_rows(const ControlCurves<S>& curves) noexcept {
+  return {curves.points,       curves.count,
+          curves.degree,       0,
+          curves.curve_stride, 0,
+          curves.point_stride, curves.component_stride,
+          curves.components,   curves.weights,
+          curves.memory};
+}
+
 /// ok | bad_degree | bad_components | null_input | bad_stride | size_overflow | input_too_small.
 template <typename S>
 [[nodiscard]] Status check_curves(const ControlCurves<S>& curves) noexcept {
@@ -25,20 +36,8 @@ template <typename S>
   if (curves.point_stride == 0 || (curves.component_stride == 0 && !single)) {
     return Status::bad_stride;
   }
-  Lattice lattice; // of nets with one row
-  const bool addressable = lattice_of<S>({curves.points,
-                                          curves.count,
-                                          curves.degree,
-                                          0,
-                                          curves.curve_stride,
-                                          0,
-                                          curves.point_stride,
-                                          curves.component_stride,
-                                          curves.components,
-                                          curves.weights,
-                                          {}},
-                                         lattice);
-  if (!addressable) {
+  Lattice lattice;
+  if (!lattice_of(as_rows(curves), lattice)) {
     return Status::size_overflow;
   }
   return lies_in(lattice, curves.count, curves.memory) ? Status::ok : Status::input_too_small;

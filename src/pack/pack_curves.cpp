@@ -77,7 +77,7 @@ Report pack_all(const ControlCurves<S>& curves, const PackOptions& options, Isa 
                 CurveStorage<T>& storage) {
   const CurvePackKernel<T, S> kernel = packing_kernel<S>(*kernel_table<T>(isa).curves);
   const double* const shift = options.relative_to;
-  const CurvePackTask<T, S> task{curves,
+  const CurvePackTask<T, S> task{as_rows(curves),
                                  storage.shape,
                                  {shift[0], shift[1], shift[2]},
                                  storage.values,

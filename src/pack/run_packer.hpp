@@ -41,22 +41,19 @@ private:
   [[nodiscard]] PackDoubt call_kernel(std::size_t begin, std::size_t end) const {
     const NetShape& shape = storage_.shape;
     const double* const shift = options_.relative_to;
-    T* const coefficients = storage_.coefficients + run_.place * shape.coefficients();
-    T* const edges = storage_.edges + run_.place * shape.edges();
-    S* const points = writable_points<S>(storage_.given) + run_.place * shape.control_values();
-    T* const origins =
-        storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
-    T* const floor = storage_.normal_floor + run_.place * shape.floors();
-    const PackArrays<T, S> arrays{
-        {shift[0], shift[1], shift[2]}, coefficients, edges, points, origins, floor};
-    if (shape.is_bicubic() && !table_.compact) {
-      const PackTask<T, S> task{arrays,           nets_.points,       nets_.patch_stride,
-                                nets_.row_stride, nets_.point_stride, nets_.component_stride,
-                                streaming_};
-      return packing_kernel<S>(table_)(task, begin, end);
-    }
-    const NetPackTask<T, S> task{arrays, nets_, shape};
-    return packing_kernel<S>(*table_.shapes)(task, begin, end);
+    const PackTask<T, S> task{
+        nets_,
+        shape,
+        {shift[0], shift[1], shift[2]},
+        storage_.coefficients + run_.place * shape.coefficients(),
+        storage_.edges + run_.place * shape.edges(),
+        writable_points<S>(storage_.given) + run_.place * shape.control_values(),
+        storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins(),
+        storage_.normal_floor + run_.place * shape.floors(),
+        streaming_};
+    return shape.is_bicubic() && !table_.compact
+               ? packing_kernel<S>(table_)(task, begin, end)
+               : packing_kernel<S>(*table_.shapes)(task, begin, end);
   }
 
   const ControlNets<S>& nets_;

@@ -83,7 +83,7 @@ struct ScatteredCurveTask : CurveArrays<T> {
 /// Curves to pack, and where the arrays of curve 0 begin.
 template <typename T, typename S>
 struct CurvePackTask {
-  ControlCurves<S> curves;
+  ControlNets<S> rows; ///< polygons, as nets of one row
   CurveShape shape;
   double relative_to[3]; ///< of the first three components
 

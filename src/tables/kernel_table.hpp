@@ -152,27 +152,21 @@ constexpr std::size_t depth(OutputSet outputs) noexcept {
   return outputs == kPosition ? 0 : outputs == kSecondDerivatives ? 2 : 1;
 }
 
-/// What packs of all shapes have in common: where the arrays of patch 0 begin, and what positions
-/// become relative to.
+/// Nets of one shape to pack: where the arrays of patch 0 begin, and what positions become relative
+/// to.
 template <typename T, typename S>
-struct PackArrays {
+struct PackTask {
+  ControlNets<S> nets;
+  NetShape shape;
   double relative_to[3]; ///< of the first three components
   T* coefficients;
   T* edges;
   S* control_points; ///< as given, see given_points.hpp
   T* origins;        ///< null where none are wanted
   T* normal_floor;
-};
-
-/// Bicubic nets in space to pack.
-template <typename T, typename S>
-struct PackTask : PackArrays<T, S> {
-  const S* points;
-  std::ptrdiff_t patch_stride;
-  std::ptrdiff_t row_stride;
-  std::ptrdiff_t point_stride;
-  std::ptrdiff_t component_stride;
-  bool streaming; ///< past the caches where lines are whole; KernelTable::fence() completes that
+  /// The kernel of bicubic nets goes past the caches where lines are whole; KernelTable::fence()
+  /// completes that.
+  bool streaming;
 };
 
 /// Patches [begin, end) have been packed, but something among them may not be finite, and what
@@ -196,17 +190,6 @@ constexpr auto packing_kernel(const Table& table) noexcept {
   }
 }
 
-/// Nets of any shape to pack.
-template <typename T, typename S>
-struct NetPackTask : PackArrays<T, S> {
-  ControlNets<S> nets;
-  NetShape shape;
-};
-
-template <typename T, typename S>
-using NetPackKernel = PackDoubt (*)(const NetPackTask<T, S>& task, std::size_t begin,
-                                    std::size_t end);
-
 /// Samples whose derivatives of any order are wanted: src/tables/derivative_task.hpp.
 template <typename T>
 struct DerivativeTask;
@@ -218,8 +201,8 @@ struct ShapeTable {
   void (*grid)(GridTask<T>& task); ///< all outputs that the task wants
   void (*scattered)(ScatteredTask<T>& task);
   void (*derivatives)(DerivativeTask<T>& task);
-  NetPackKernel<T, float> pack_f32;
-  NetPackKernel<T, double> pack_f64;
+  PackKernel<T, float> pack_f32;
+  PackKernel<T, double> pack_f64;
 };
 
 /// Kernels for curves (src/tables/curve_table.hpp), for operations on control nets

@@ -29,17 +29,17 @@ detail::PackDoubt pack_kernel(const detail::PackTask<T, S>& /*task*/, std::size_
   __builtin_trap();
 }
 template <typename T, typename S>
-detail::PackDoubt shape_pack_kernel(const detail::NetPackTask<T, S>& /*task*/,
-                                    std::size_t /*begin*/, std::size_t /*end*/) {
+detail::PackDoubt shape_pack_kernel(const detail::PackTask<T, S>& /*task*/, std::size_t /*begin*/,
+                                    std::size_t /*end*/) {
   __builtin_trap();
 }
 template detail::PackDoubt pack_kernel(const detail::PackTask<float, double>&, std::size_t,
                                        std::size_t);
 template detail::PackDoubt pack_kernel(const detail::PackTask<double, float>&, std::size_t,
                                        std::size_t);
-template detail::PackDoubt shape_pack_kernel(const detail::NetPackTask<float, double>&, std::size_t,
+template detail::PackDoubt shape_pack_kernel(const detail::PackTask<float, double>&, std::size_t,
                                              std::size_t);
-template detail::PackDoubt shape_pack_kernel(const detail::NetPackTask<double, float>&, std::size_t,
+template detail::PackDoubt shape_pack_kernel(const detail::PackTask<double, float>&, std::size_t,
                                              std::size_t);
 
 #if !SIMDBEZIER_WEB_FILES
