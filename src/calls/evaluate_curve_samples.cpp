@@ -15,12 +15,12 @@ namespace {
 template <typename T>
 class CurveSamplesWork {
 public:
-  CurveSamplesWork(const CurveStorage<T>& curves, const Request<T>& request,
-                   const CurveSamples<T>& samples, const OutputList<T>& out,
-                   const Options& options) noexcept
-      : curves_(curves), table_(*request.table), first_component_(request.components.first),
-        samples_(samples), outputs_(plan_outputs(out, way_of_samples(options.destination))),
-        pieces_(samples.curve.size(), outputs_.staged()) {}
+  CurveSamplesWork(const Given<T, CurveSet<T>, CurveSamples<T>>& in,
+                   const Request<T>& request) noexcept
+      : curves_(*in.set.storage()), table_(*request.table),
+        first_component_(request.components.first), samples_(in.where),
+        outputs_(plan_outputs(in.out, way_of_samples(in.options.destination))),
+        pieces_(samples_.curve.size(), outputs_.staged()) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }
   [[nodiscard]] std::size_t duration() const noexcept {
@@ -69,29 +69,7 @@ private:
 };
 
 template <typename T>
-class CurveSamplesCall : public OutputCall<T, CurveSet, CurveSamples<T>> {
-public:
-  using OutputCall<T, CurveSet, CurveSamples<T>>::OutputCall;
-
-  Status check() noexcept {
-    if (in_.where.t.size() != in_.where.curve.size()) {
-      return Status::unequal_lengths;
-    }
-    const MemoryRange inputs[] = {in_.where.curve, in_.where.t};
-    const Status usable = this->check_given(in_.where.curve.size(), inputs);
-    return usable ? check_samples(in_.where.curve, in_.where.t.data() != nullptr, in_.set.size(),
-                                  *request_.table)
-                  : usable;
-  }
-  [[nodiscard]] bool empty() const noexcept { return in_.where.curve.empty(); }
-  [[nodiscard]] CurveSamplesWork<T> plan() const noexcept {
-    return {*in_.set.storage(), request_, in_.where, in_.out, in_.options};
-  }
-
-private:
-  using OutputCall<T, CurveSet, CurveSamples<T>>::in_;
-  using OutputCall<T, CurveSet, CurveSamples<T>>::request_;
-};
+using CurveSamplesCall = SamplesCall<T, CurveSet, CurveSamples<T>, CurveSamplesWork<T>>;
 
 } // namespace
 } // namespace detail

@@ -192,13 +192,14 @@ public:
 
   Status resolve() noexcept { return request_.resolve(set_, {}, out_.first_component, options_); }
   Status check() noexcept {
-    if (lengths_differ(samples_)) {
+    const SampleArrays<T> arrays(samples_);
+    if (arrays.lengths_differ()) {
       return Status::unequal_lengths;
     }
     MemoryRange inputs[] = {{}, samples_.patch, samples_.u, samples_.v};
     const Status usable = check_derivatives(out_.derivatives, samples_.patch.size(),
                                             request_.components.dimension, inputs);
-    return usable ? check_samples(set_, samples_, *request_.table) : usable;
+    return usable ? arrays.check(set_.size(), *request_.table) : usable;
   }
   [[nodiscard]] bool empty() const noexcept { return samples_.patch.empty(); }
   [[nodiscard]] DerivativeWork<T, SampleSource<T>> plan() const noexcept {

@@ -16,11 +16,10 @@ namespace {
 template <typename T>
 class SamplesWork {
 public:
-  SamplesWork(const SetStorage<T>& set, const Request<T>& request, const Samples<T>& samples,
-              const OutputList<T>& out, const Options& options) noexcept
-      : kernels_(set, request, out, options), samples_(samples),
-        outputs_(out, way_of_samples(options.destination)),
-        pieces_(samples.patch.size(), outputs_.staged()) {}
+  SamplesWork(const Given<T, PatchSet<T>, Samples<T>>& in, const Request<T>& request) noexcept
+      : kernels_(*in.set.storage(), request, in.out, in.options), samples_(in.where),
+        outputs_(in.out, way_of_samples(in.options.destination)),
+        pieces_(samples_.patch.size(), outputs_.staged()) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }
   [[nodiscard]] std::size_t duration() const noexcept {
@@ -69,27 +68,7 @@ private:
 };
 
 template <typename T>
-class SamplesCall : public OutputCall<T, PatchSet, Samples<T>> {
-public:
-  using OutputCall<T, PatchSet, Samples<T>>::OutputCall;
-
-  Status check() noexcept {
-    if (lengths_differ(in_.where)) {
-      return Status::unequal_lengths;
-    }
-    const MemoryRange inputs[] = {in_.where.patch, in_.where.u, in_.where.v};
-    const Status usable = this->check_given(in_.where.patch.size(), inputs);
-    return usable ? check_samples(in_.set, in_.where, *request_.table) : usable;
-  }
-  [[nodiscard]] bool empty() const noexcept { return in_.where.patch.empty(); }
-  [[nodiscard]] SamplesWork<T> plan() const noexcept {
-    return {*in_.set.storage(), request_, in_.where, in_.out, in_.options};
-  }
-
-private:
-  using OutputCall<T, PatchSet, Samples<T>>::in_;
-  using OutputCall<T, PatchSet, Samples<T>>::request_;
-};
+using PatchSamplesCall = SamplesCall<T, PatchSet, Samples<T>, SamplesWork<T>>;
 
 } // namespace
 } // namespace detail
@@ -101,7 +80,7 @@ Status evaluate(const PatchSet<T>& set, const Samples<T>& samples, const Outputs
       detail::FewSamples<T>(set, samples, out, options).run()) {
     return Status::ok;
   }
-  return detail::make_call(detail::SamplesCall<T>(set, samples, out, options), options);
+  return detail::make_call(detail::PatchSamplesCall<T>(set, samples, out, options), options);
 }
 
 template SIMDBEZIER_API Status evaluate(const PatchSet<float>&, const Samples<float>&,

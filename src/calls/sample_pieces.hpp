@@ -1,44 +1,69 @@
 // How single samples, of patches or of curves, go to the kernels.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include <simdbezier/options.hpp>
-#include <simdbezier/patch_set.hpp>
-
-#include "src/tables/kernel_table.hpp"
+#include "src/calls/call.hpp"
 
 namespace simdbezier::detail {
 
-/// Checks single samples: ok | null_input | bad_patch_index; there are as many parameters as
-/// indices.
+/// The arrays of single samples of patches or of curves, whose numbers come first.
 template <typename T>
-[[nodiscard]] Status check_samples(std::span<const std::uint32_t> index, bool parameters,
-                                   std::size_t set_size, const KernelTable<T>& table) noexcept {
-  if (index.empty()) {
-    return Status::ok;
-  }
-  if (index.data() == nullptr || !parameters) {
-    return Status::null_input;
-  }
-  const std::uint32_t highest = table.highest_index(index.data(), index.size());
-  return highest < set_size ? Status::ok : Status::bad_patch_index;
-}
+class SampleArrays {
+public:
+  explicit SampleArrays(const Samples<T>& samples) noexcept
+      : index_(samples.patch), parameters_{samples.u, samples.v} {}
+  explicit SampleArrays(const CurveSamples<T>& samples) noexcept
+      : index_(samples.curve), parameters_{samples.t, samples.t} {}
 
-/// Checks the parameters and indices of samples of patches: ok | null_input | bad_patch_index.
-template <typename T>
-[[nodiscard]] Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
-                                   const KernelTable<T>& table) noexcept {
-  const bool parameters = samples.u.data() != nullptr && samples.v.data() != nullptr;
-  return check_samples(samples.patch, parameters, set.size(), table);
-}
+  [[nodiscard]] std::size_t count() const noexcept { return index_.size(); }
+  [[nodiscard]] bool lengths_differ() const noexcept {
+    return parameters_[0].size() != count() || parameters_[1].size() != count();
+  }
+  /// The memory that outputs may not overlap.
+  [[nodiscard]] std::array<MemoryRange, 3> inputs() const noexcept {
+    return {MemoryRange(index_), MemoryRange(parameters_[0]), MemoryRange(parameters_[1])};
+  }
+  /// ok | null_input | bad_patch_index; the lengths do not differ.
+  [[nodiscard]] Status check(std::size_t set_size, const KernelTable<T>& table) const noexcept {
+    if (count() == 0) {
+      return Status::ok;
+    }
+    if (index_.data() == nullptr || parameters_[0].data() == nullptr ||
+        parameters_[1].data() == nullptr) {
+      return Status::null_input;
+    }
+    const std::uint32_t highest = table.highest_index(index_.data(), count());
+    return highest < set_size ? Status::ok : Status::bad_patch_index;
+  }
 
-template <typename T>
-[[nodiscard]] bool lengths_differ(const Samples<T>& samples) noexcept {
-  return samples.u.size() != samples.patch.size() || samples.v.size() != samples.patch.size();
-}
+private:
+  std::span<const std::uint32_t> index_;
+  std::span<const T> parameters_[2];
+};
+
+/// The call on single samples. Work: made of what is given and what is resolved.
+template <typename T, template <typename> typename Set, typename Where, typename Work>
+class SamplesCall : public OutputCall<T, Set, Where> {
+public:
+  using OutputCall<T, Set, Where>::OutputCall;
+
+  Status check() noexcept {
+    const SampleArrays<T> arrays(this->in_.where);
+    if (arrays.lengths_differ()) {
+      return Status::unequal_lengths;
+    }
+    const Status usable = this->check_given(arrays.count(), arrays.inputs());
+    return usable ? arrays.check(this->in_.set.size(), *this->request_.table) : usable;
+  }
+  [[nodiscard]] bool empty() const noexcept {
+    return SampleArrays<T>(this->in_.where).count() == 0;
+  }
+  [[nodiscard]] Work plan() const noexcept { return {this->in_, this->request_}; }
+};
 
 /// Samples that a kernel evaluates at a time: where outputs are staged, few enough for the
 /// first-level cache, otherwise so many that the time to prepare a task does not count.
