@@ -15,8 +15,8 @@ simdbezier_add_sources(calls O3 counted_grids.cpp evaluate_curve_grid.cpp evalua
                        piece_evaluator.cpp samples.cpp)
 simdbezier_add_sources(calls O2 evaluate_derivatives.cpp evaluate_grid.cpp evaluate_patch_grids.cpp
                        evaluate_tiles.cpp)
-simdbezier_add_sources(choice O3 any_work.cpp clock.cpp destination.cpp destined_call.cpp
-                       line_costs.cpp page_faults.cpp strategies.cpp width_choice.cpp)
+simdbezier_add_sources(choice O3 clock.cpp destination.cpp destined_call.cpp line_costs.cpp
+                       strategies.cpp width_choice.cpp)
 simdbezier_add_sources(nets O3 adjacency.cpp bases.cpp bounds.cpp edge_rings.cpp iso_points.cpp
                        linear_maps.cpp net_call.cpp net_operations.cpp net_places.cpp
                        patch_keys.cpp unit_parameter.cpp)
@@ -25,9 +25,8 @@ simdbezier_add_sources(splines O3 evaluate_spline_samples.cpp evaluate_splines.c
                        spline_knots.cpp spline_list.cpp spline_nets.cpp splines.cpp)
 simdbezier_add_sources(output O3 delivery.cpp output_check.cpp)
 simdbezier_add_sources(output O2 output_plan.cpp)
-simdbezier_add_sources(runtime O3 batch.cpp cache_sizes.cpp dispatch.cpp executed_isa.cpp
-                       fp_environment.cpp instruction_sets.cpp status.cpp
-                       threads_${SIMDBEZIER_THREADS}.cpp)
+simdbezier_add_sources(runtime O3 batch.cpp cache_sizes.cpp dispatch.cpp fp_environment.cpp
+                       instruction_sets.cpp status.cpp threads_${SIMDBEZIER_THREADS}.cpp)
 simdbezier_add_sources(mesh/topology O3 distinct_nets.cpp entanglement.cpp fit.cpp
                        forced_diagonals.cpp net_corners.cpp orientation.cpp snapping.cpp
                        topology.cpp)

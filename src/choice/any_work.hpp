@@ -3,8 +3,7 @@
 
 #include <cstddef>
 
-#include <simdbezier/options.hpp>
-#include <simdbezier/status.hpp>
+#include "src/runtime/batch.hpp"
 
 namespace simdbezier::detail {
 
@@ -35,6 +34,8 @@ struct AnyWork {
 
 /// Runs it in the floating-point environment of make_call(). Returns ok | out_of_memory, before
 /// anything is written.
-[[nodiscard]] Status run_work(const AnyWork& work, const RunOptions& options) noexcept;
+[[nodiscard]] inline Status run_work(const AnyWork& work, const RunOptions& options) noexcept {
+  return run_blocks_here(work.units, work.duration, options, work.scratch_bytes, work);
+}
 
 } // namespace simdbezier::detail

@@ -4,6 +4,9 @@
 #if !defined(__wasm__)
 #include <chrono>
 #endif
+#if defined(__linux__)
+#include <sys/resource.h>
+#endif
 
 namespace simdbezier::detail {
 
@@ -13,6 +16,15 @@ std::int64_t clock_now() noexcept {
 #else
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+#endif
+}
+
+std::int64_t page_faults() noexcept {
+#if defined(__linux__)
+  rusage usage = {};
+  return getrusage(RUSAGE_THREAD, &usage) == 0 ? usage.ru_minflt : 0;
+#else
+  return 0;
 #endif
 }
 

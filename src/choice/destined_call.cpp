@@ -7,7 +7,6 @@
 
 #include "src/choice/clock.hpp"
 #include "src/choice/measured_blocks.hpp"
-#include "src/choice/page_faults.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 

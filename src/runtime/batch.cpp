@@ -1,10 +1,22 @@
 #include "src/runtime/batch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "src/runtime/threads.hpp"
 
-namespace simdbezier::detail {
+namespace simdbezier {
+namespace {
+
+thread_local Isa executed = Isa::automatic;
+
+} // namespace
+
+Isa take_executed_isa() noexcept { return std::exchange(executed, Isa::automatic); }
+
+namespace detail {
+
+void note_executed(Isa isa) noexcept { executed = isa; }
 
 int thread_count(int requested, std::size_t units, std::size_t duration) noexcept {
   const std::size_t shares = requested > 0 ? units : std::min(units, duration / kShortestShare);
@@ -45,4 +57,5 @@ void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept {
                            }});
 }
 
-} // namespace simdbezier::detail
+} // namespace detail
+} // namespace simdbezier

@@ -9,7 +9,6 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
 
-#include "src/runtime/executed_isa.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/aligned_memory.hpp"
 
@@ -143,6 +142,9 @@ private:
   std::unique_ptr<void, FreeAligned> memory_;
   std::size_t bytes_ = 0;
 };
+
+/// Keeps the instruction set that the calling thread's call ran on, for take_executed_isa().
+void note_executed(Isa isa) noexcept;
 
 /// Runs units [begin, end) of an evaluate call, which is in the library's floating-point
 /// environment: `Isa work(worker, begin, end, unsigned char* scratch)` on every thread's share of

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "src/choice/clock.hpp"
-#include "src/choice/page_faults.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 
