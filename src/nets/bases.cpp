@@ -35,9 +35,8 @@ Report change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Basis
   if (fits != Status::ok) {
     return argument_fault(fits);
   }
-  const auto map_of = to_bezier ? to_bezier_map : from_bezier_map;
-  const LinearMap u = map_of(basis, nets.degree_u);
-  const LinearMap v = map_of(basis, nets.degree_v);
+  const LinearMap u = basis_map(basis, nets.degree_u, to_bezier);
+  const LinearMap v = basis_map(basis, nets.degree_v, to_bezier);
   const MapTask<T> task{view_of(nets), view_of(out), &u, &v, support_of(u), support_of(v)};
   return compute_nets(nets, &NetOperationTable<T>::map, task, 3 * shape_of(nets).control_values(),
                       options, is_power(basis));

@@ -239,36 +239,20 @@ Support support_of(const LinearMap& map) noexcept {
   return support;
 }
 
-LinearMap to_bezier_map(Basis basis, int degree) noexcept {
+LinearMap basis_map(Basis basis, int degree, bool to_bezier) noexcept {
   switch (basis) {
   case Basis::power:
-    return power_to_bezier(degree);
+    return to_bezier ? power_to_bezier(degree) : bezier_to_power(degree);
   case Basis::centred_power:
-    return centred_power_to_bezier(degree);
+    return to_bezier ? centred_power_to_bezier(degree) : bezier_to_centred_power(degree);
   case Basis::hermite:
-    return hermite_to_bezier();
+    return to_bezier ? hermite_to_bezier() : bezier_to_hermite();
   case Basis::catmull_rom:
-    return catmull_rom_to_bezier();
+    return to_bezier ? catmull_rom_to_bezier() : bezier_to_catmull_rom();
   case Basis::b_spline:
     break;
   }
-  return b_spline_to_bezier();
-}
-
-LinearMap from_bezier_map(Basis basis, int degree) noexcept {
-  switch (basis) {
-  case Basis::power:
-    return bezier_to_power(degree);
-  case Basis::centred_power:
-    return bezier_to_centred_power(degree);
-  case Basis::hermite:
-    return bezier_to_hermite();
-  case Basis::catmull_rom:
-    return bezier_to_catmull_rom();
-  case Basis::b_spline:
-    break;
-  }
-  return bezier_to_b_spline();
+  return to_bezier ? b_spline_to_bezier() : bezier_to_b_spline();
 }
 
 } // namespace simdbezier::detail

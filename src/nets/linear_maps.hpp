@@ -16,7 +16,7 @@ Support support_of(const LinearMap& map) noexcept;
 /// The support of a piece of a direction, or of the whole: `first`, it begins where that begins;
 /// `last`, it ends where that ends.
 Support support_of_piece(int degree, bool first, bool last) noexcept;
-LinearMap to_bezier_map(Basis basis, int degree) noexcept;
-LinearMap from_bezier_map(Basis basis, int degree) noexcept;
+/// From a basis to control points, or back.
+LinearMap basis_map(Basis basis, int degree, bool to_bezier) noexcept;
 
 } // namespace simdbezier::detail
