@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "src/certificate/certificate_sums.hpp"
-#include "src/certificate/merged_points.hpp"
+#include "src/certificate/control_values.hpp"
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/patch_storage.hpp"
@@ -41,7 +41,7 @@ public:
   /// Goes to one of the storage's patches.
   void look_at(std::size_t index) {
     index_ = index;
-    net_ = storage_.given.net(index * shape_.control_values());
+    control_.net = storage_.given.net(index * shape_.control_values());
   }
 
   /// The bounds of one component of the patch.
@@ -89,7 +89,8 @@ private:
   /// Edges are rounded as rows are.
   Certificate(const PatchStorage<T>& storage, const DirectionRoundings& u,
               const DirectionRoundings& v, bool derivatives)
-      : storage_(storage), shape_(storage.shape), net_(storage.given.net(0)),
+      : storage_(storage), shape_(storage.shape), control_{storage.given.net(0), shape_.points(),
+                                                           shape_.channels(), shape_.rational},
         matrix_(as_column(u), v), along_u_(u, DirectionRoundings()),
         along_v_(DirectionRoundings(), v), per_step_(u.fused ? 1 : 2), derivatives_(derivatives) {}
 
@@ -121,23 +122,9 @@ private:
                      storage_.origins[index_ * shape_.origins() + cell * shape_.cell_origins() +
                                       channel * kOriginsPerComponent + at]);
   }
-  /// A point's coordinate, or its weight.
-  [[nodiscard]] double control_value(std::size_t point, std::size_t channel) const {
-    return shape_.rational && channel == weight()
-               ? net_.value(point * shape_.channels() + channel)
-               : net_.coordinate(point, shape_.channels(), channel);
-  }
 
   [[nodiscard]] double carried(double largest) const {
     return carried_error<T>(shape_.degree_u + shape_.degree_v, largest);
-  }
-  /// Largest |value| of a channel's control points.
-  [[nodiscard]] double largest(std::size_t channel) const {
-    double most = 0;
-    for (std::size_t k = 0; k < shape_.points(); ++k) {
-      most = std::max(most, std::fabs(control_value(k, channel)));
-    }
-    return most;
   }
 
   [[nodiscard]] Bound polynomial(std::size_t cell, std::size_t c) const {
@@ -150,7 +137,7 @@ private:
       }
       position += sums.size + most;
     }
-    const double lost = shape_.cells() == 1 ? 0 : carried(largest(c));
+    const double lost = shape_.cells() == 1 ? 0 : carried(control_.largest(c));
     const auto bound = [&](double sum, double factor, double way) {
       return unless_overflow<T>(kRoundings * sum + kDenormals + factor * lost, way);
     };
@@ -191,10 +178,10 @@ private:
   [[nodiscard]] Bound quotient(std::size_t cell, std::size_t c, const TermSums& h,
                                const TermSums& w, std::size_t origin_at) const {
     const double around = origin(cell, c, origin_at);
-    const double reach = reach_from(c, around); // bounds |S|
-    const double most_w = largest(weight());
+    const double reach = control_.reach_from(around, c, kUnit); // bounds |S|
+    const double most_w = control_.largest(weight());
     const double lost_w = carried(most_w);
-    const double lost_h = carried((largest(c) + std::fabs(around)) * most_w);
+    const double lost_h = carried((control_.largest(c) + std::fabs(around)) * most_w);
     const double error_h = kRoundings * h.value + kDenormals + lost_h;
     const double error_w = kRoundings * w.value + kDenormals + lost_w;
     const double lowest = lowest_weight(w, error_w);
@@ -234,16 +221,6 @@ private:
     return bound;
   }
 
-  /// Bounds |S - origin|: the patch lies in the hull of its control points.
-  [[nodiscard]] double reach_from(std::size_t c, double around) const {
-    double reach = 0;
-    for (std::size_t k = 0; k < shape_.points(); ++k) {
-      const double point = control_value(k, c);
-      reach = std::max(reach, std::fabs(point - around) + 8 * kUnit * std::fabs(point));
-    }
-    return reach;
-  }
-
   /// Adds what edges that are points up to roundings lose when they become points. Let a be how far
   /// apart their points are, and R the ratio of the patch's weights: such an edge has moved by up
   /// to a, derivatives along it have been up to degree R a (M. S. Floater, Derivatives of rational
@@ -257,32 +234,25 @@ private:
                               {order_u - 1, order_u, order_v}};
     double apart = 0;
     for (const PointRun& edge : edges) {
-      apart = std::max(apart, merged_distance(net_, edge, shape_.channels(), c));
+      apart = std::max(apart, control_.merged_distance(edge, c));
     }
-    const double slope = 1.01 * apart * largest(weight()) / least_weight();
+    const double slope = 1.01 * apart * control_.largest(weight()) / control_.least_weight();
     bound.position += 1.01 * apart;
     bound.du += shape_.degree_u * slope;
     bound.dv += shape_.degree_v * slope;
   }
 
-  [[nodiscard]] double least_weight() const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < shape_.points(); ++k) {
-      least = std::min(least, control_value(k, weight()));
-    }
-    return least;
-  }
-
   /// A lower bound of w as computed: the least of its control values, or what the other terms leave
   /// of its constant.
   [[nodiscard]] double lowest_weight(const TermSums& w, double error) const {
-    return std::max(least_weight() * (1 - 4 * kUnit), 2 * w.constant - w.size - error) - error;
+    return std::max(control_.least_weight() * (1 - 4 * kUnit), 2 * w.constant - w.size - error) -
+           error;
   }
 
   const PatchStorage<T>& storage_;
   const NetShape& shape_;
   std::size_t index_ = 0;
-  GivenNet net_;
+  ControlValues control_;
   TermFactors matrix_;
   TermFactors along_u_; ///< of edges
   TermFactors along_v_;

@@ -6,7 +6,7 @@
 #include <simdbezier/bounds.hpp>
 
 #include "src/certificate/certificate_sums.hpp"
-#include "src/certificate/merged_points.hpp"
+#include "src/certificate/control_values.hpp"
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
@@ -32,8 +32,10 @@ class CurveCertificate {
 public:
   /// derivatives: the highest whose bounds are wanted.
   CurveCertificate(const CurveStorage<T>& storage, bool fused, std::size_t derivatives)
-      : storage_(storage), shape_(storage.shape), values_(storage.values),
-        net_(storage.given.net(0)), derivatives_(derivatives), per_step_(fused ? 1 : 2) {
+      : storage_(storage), shape_(storage.shape),
+        values_(storage.values), control_{storage.given.net(0), shape_.order(), shape_.channels(),
+                                          shape_.rational},
+        derivatives_(derivatives), per_step_(fused ? 1 : 2) {
     const DirectionRoundings roundings{shape_.order(), shape_.cells() == 2, fused};
     for (std::size_t k = 0; k < shape_.order(); ++k) {
       scale_[k] = std::ldexp(1.0, -static_cast<int>(k));
@@ -46,7 +48,7 @@ public:
   /// Goes to one of the curves.
   void look_at(std::size_t curve) {
     values_ = storage_.values + curve * shape_.values();
-    net_ = storage_.given.net(curve * shape_.control_values());
+    control_.net = storage_.given.net(curve * shape_.control_values());
   }
 
   /// Absolute errors of one component, by t.
@@ -108,21 +110,11 @@ private:
     bounds.error.at[1] += 2 * degree * lost;
     bounds.error.at[2] += 4 * degree * (degree - 1) * lost;
   }
-  /// Largest |value| of a component, or of the weight, among the control points.
-  [[nodiscard]] double largest(std::size_t index) const {
-    const bool is_weight = index == static_cast<std::size_t>(shape_.components);
-    double most = 0;
-    for (std::size_t i = 0; i < shape_.order(); ++i) {
-      most = std::max(most, std::fabs(is_weight ? net_.value((i + 1) * shape_.channels() - 1)
-                                                : net_.coordinate(i, shape_.channels(), index)));
-    }
-    return most;
-  }
 
   [[nodiscard]] ByOrder plain(std::size_t cell, std::size_t component) const {
     PolynomialBounds bounds = polynomial(cell, component);
     if (shape_.cells() > 1) {
-      add_carried(largest(component), bounds);
+      add_carried(control_.largest(component), bounds);
     }
     if (shape_.origins) {
       const double o = std::fabs(origin(cell, component));
@@ -139,21 +131,13 @@ private:
   /// points up to a apart, weights in a ratio of R and degree n, |C'| <= n R a, as for patches, and
   /// w C'' = h'' - 2 C' w' - C w'' around one of the points is at most (8 + 2 R) n^2 R a w.
   void add_merged(std::size_t component, ByOrder& error) const {
-    const double apart =
-        1.01 * merged_distance(net_, {0, 1, shape_.order()}, shape_.channels(), component);
-    const double ratio = largest(static_cast<std::size_t>(shape_.components)) / least_weight();
+    const double apart = 1.01 * control_.merged_distance({0, 1, shape_.order()}, component);
+    const double ratio =
+        control_.largest(static_cast<std::size_t>(shape_.components)) / control_.least_weight();
     const double slope = static_cast<double>(shape_.degree) * ratio;
     error.at[0] += apart;
     error.at[1] += slope * apart;
     error.at[2] += slope * (8 + 2 * ratio) * static_cast<double>(shape_.degree) * apart;
-  }
-
-  [[nodiscard]] double least_weight() const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < shape_.order(); ++i) {
-      least = std::min(least, net_.value((i + 1) * shape_.channels() - 1));
-    }
-    return least;
   }
 
   /// Errors of C = h/w and its derivatives w C^(d) = h^(d) - …, in the order of their computation:
@@ -163,15 +147,12 @@ private:
     const double o = origin(cell, component);
     PolynomialBounds h = polynomial(cell, component);
     PolynomialBounds w = polynomial(cell, weight);
-    const double most_weight = largest(weight);
-    add_carried((largest(component) + std::fabs(o)) * most_weight, h);
+    const double most_weight = control_.largest(weight);
+    add_carried((control_.largest(component) + std::fabs(o)) * most_weight, h);
     add_carried(most_weight, w);
-    double most = 0; // |C - O|
-    for (std::size_t i = 0; i < shape_.order(); ++i) {
-      const double point = net_.coordinate(i, shape_.channels(), component);
-      most = std::max(most, std::fabs(point - o) + 8 * kUnit * std::fabs(point));
-    }
-    const double divisor = least_weight() - w.error.at[0]; // bounds all w that are computed
+    const double most = control_.reach_from(o, component, kUnit); // |C - O|
+    const double divisor =
+        control_.least_weight() - w.error.at[0]; // bounds all w that are computed
     if (!(divisor > 0)) {
       constexpr double kUnknown = std::numeric_limits<double>::infinity();
       return {{kUnknown, kUnknown, kUnknown}};
@@ -210,7 +191,7 @@ private:
   const CurveStorage<T>& storage_;
   const CurveShape& shape_;
   const T* values_;
-  GivenNet net_;
+  ControlValues control_;
   std::size_t derivatives_;
   double scale_[kMostOrder]; ///< 2^-power
   double roundings_[kMostOrder][3];

@@ -102,12 +102,9 @@ public:
   /// finite are no points; others are compared by their bits.
   [[nodiscard]] bool collapsed() const noexcept {
     if (form_->weights == Weights::homogeneous) {
-      const auto are_one = [&](std::ptrdiff_t count) {
-        return are_one_point(first_, stride_, static_cast<std::size_t>(count),
-                             static_cast<std::size_t>(form_->components), form_->component_stride,
-                             Weights::homogeneous);
-      };
-      return are_one(form_->degree + 1);
+      return are_one_point(first_, stride_, static_cast<std::size_t>(form_->degree + 1),
+                           static_cast<std::size_t>(form_->components), form_->component_stride,
+                           Weights::homogeneous);
     }
     for (std::ptrdiff_t k = 1; k <= form_->degree; ++k) {
       for (std::ptrdiff_t c = 0; c < form_->components; ++c) {
