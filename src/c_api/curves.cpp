@@ -1,73 +1,16 @@
 // Curves of simdbezier.h.
 #include <simdbezier/curves.hpp>
 
-#include "src/c_api/evaluate_set.hpp"
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
 #include "src/nets/net_call.hpp"
 
 namespace simdbezier::c_api {
 namespace {
 
-constexpr Path kGrid{"grid"};
-constexpr Path kGrids{"grids"};
-constexpr Path kSamples{"samples"};
-constexpr Path kOut{"out"};
+constexpr Path kNets{"nets"};
 
 static_assert(SIMDBEZIER_EDGE_U1 == static_cast<int>(PatchEdge::u1));
-
-/// The vector outputs in the order of CurveOutput.
-constexpr simdbezier_vectors simdbezier_curve_outputs::*kVectors[] = {
-    &simdbezier_curve_outputs::position, &simdbezier_curve_outputs::d1,
-    &simdbezier_curve_outputs::d2, &simdbezier_curve_outputs::tangent};
-static_assert(std::size(kVectors) == kCurveVectorOutputs, "every vector output has its member");
-
-template <typename T>
-CurveOutputs<T> outputs_of(const simdbezier_curve_outputs* given) {
-  const simdbezier_curve_outputs known = read(given, kOut);
-  CurveOutputs<T> out;
-  for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
-    const auto output = static_cast<CurveOutput>(k);
-    out[output] = vectors_of<T>(known.*kVectors[k], kOut / output_name(output));
-  }
-  out.curvature = values_of<T>(known.curvature, kOut / "curvature");
-  out.status = sample_statuses(known.status, known.status_length, kOut);
-  out.first_component = known.first_component;
-  return out;
-}
-
-template <typename T>
-CurveGrid<T> where_of(const simdbezier_curve_grid* given) {
-  const simdbezier_curve_grid known = read(given, kGrid);
-  return {
-      known.n,
-      grid_parameters<T>(known.t, known.t_length, known.n, known.scalar, kGrid, {"t", "t_length"}),
-      parameters_of(known.parameters, kGrid), range_of(known.first_curve, known.curve_count)};
-}
-
-template <typename T>
-CurveGrids where_of(const simdbezier_curve_grids* given) {
-  const simdbezier_curve_grids known = read(given, kGrids);
-  return {span_of(known.n, known.n_length, kGrids / "n"),
-          span_of(known.offset, known.offset_length, kGrids / "offset"),
-          {known.first_curve, SetRange::kToTheEnd}};
-}
-
-template <typename T>
-CurveSamples<T> where_of(const simdbezier_curve_samples* given) {
-  const simdbezier_curve_samples known = read(given, kSamples);
-  return {span_of(known.curve, known.curve_length, kSamples / "curve"),
-          sample_parameters<T>(known.t, known.t_length, known.scalar, kSamples, "t"),
-          parameters_of(known.parameters, kSamples)};
-}
-
-template <typename Where>
-simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* set,
-                              const Where* given, const Path& path,
-                              const simdbezier_curve_outputs* out,
-                              const simdbezier_options* options) noexcept {
-  return evaluate_set(function, set, path, options, [&]<typename T>(std::type_identity<T>) {
-    return SetCall{where_of<T>(given), outputs_of<T>(out)};
-  });
-}
 
 /// iso_u() or iso_v() of a set.
 template <typename Call>
@@ -96,20 +39,15 @@ simdbezier_status iso_points(const char* function, const simdbezier_nets* nets,
                              const char* parameter, double* points, std::size_t length,
                              const simdbezier_options* options, Call call) noexcept {
   return answer(function, [&] {
-    const Path path{"nets"};
-    const simdbezier_nets given = read(nets, path);
+    const auto given = read(nets, kNets);
     const Values<double> out = span_of(points, length, {"points"});
     const Options how = call_options_of(options);
-    with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
-      const Report report = call(nets_of<S>(given, path), out, how);
+    with_view(given, [&](const auto& view) {
+      const Report report = call(view, out, how);
       require_ok(report, [&](Status status) {
-        if (status == Status::non_finite_input && report.point < 0) {
-          return Path{parameter};
-        }
-        const bool about_points = status == Status::null_output ||
-                                  status == Status::output_too_small ||
-                                  status == Status::overlapping_outputs;
-        return about_points ? Path{"points"} : blamed_nets(status, path);
+        const bool at_fault = status == Status::non_finite_input && report.point < 0;
+        return at_fault ? Path{parameter}
+                        : blamed(status, {{kOutputFaults, {"points"}}}, blamed_nets(status, kNets));
       });
     });
   });
@@ -121,49 +59,16 @@ simdbezier_status iso_points(const char* function, const simdbezier_nets* nets,
 using namespace simdbezier;
 using namespace simdbezier::c_api;
 
-simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
-                                                 const simdbezier_curve_grid* grid,
-                                                 const simdbezier_curve_outputs* out,
-                                                 const simdbezier_options* options) {
-  return evaluate_at(__func__, set, grid, kGrid, out, options);
-}
-
-simdbezier_status simdbezier_evaluate_curve_grids(const simdbezier_curve_set* set,
-                                                  const simdbezier_curve_grids* grids,
-                                                  const simdbezier_curve_outputs* out,
-                                                  const simdbezier_options* options) {
-  return evaluate_at(__func__, set, grids, kGrids, out, options);
-}
-
-simdbezier_status simdbezier_evaluate_curve_samples(const simdbezier_curve_set* set,
-                                                    const simdbezier_curve_samples* samples,
-                                                    const simdbezier_curve_outputs* out,
-                                                    const simdbezier_options* options) {
-  return evaluate_at(__func__, set, samples, kSamples, out, options);
-}
-
-size_t simdbezier_curve_grid_sample_count(const simdbezier_curve_set* set,
-                                          const simdbezier_curve_grid* grid) {
-  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grid); });
-}
-
-size_t simdbezier_curve_grids_sample_count(const simdbezier_curve_set* set,
-                                           const simdbezier_curve_grids* grids) {
-  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grids); });
-}
-
 simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbezier_edge edge,
                                              simdbezier_control_curves* curves) {
   return answer(__func__, [&] {
-    const Path path{"nets"};
-    const simdbezier_nets given = read(nets, path);
+    const auto given = read(nets, kNets);
     const auto which = choice(edge, PatchEdge::u1, {"edge"});
     require_writable(curves, {"curves"});
-    with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
-      const ControlNets<S> view = nets_of<S>(given, path);
+    with_view(given, [&](const auto& view) {
       require_ok(detail::check_input(view),
-                 [&](Status status) { return blamed_nets(status, path); });
-      const ControlCurves<S> of = boundary_curves(view, which);
+                 [&](Status status) { return blamed_nets(status, kNets); });
+      const auto of = boundary_curves(view, which);
       simdbezier_control_curves known{};
       known.points = given.points;
       known.length = given.length;

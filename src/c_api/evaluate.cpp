@@ -1,8 +1,7 @@
-// Patches at samples: evaluations of simdbezier.h.
+// Patches and curves at samples: evaluations of simdbezier.h.
 #include <simdbezier/evaluate.hpp>
 
-#include "src/c_api/evaluate_set.hpp"
-#include "src/c_api/outputs.hpp"
+#include "src/c_api/samples.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -11,7 +10,6 @@ constexpr Path kSet{"set"};
 constexpr Path kGrid{"grid"};
 constexpr Path kGrids{"grids"};
 constexpr Path kSamples{"samples"};
-constexpr Path kOut{"out"};
 
 static_assert(SIMDBEZIER_SAMPLE_NON_FINITE == static_cast<int>(SampleStatus::non_finite));
 
@@ -32,43 +30,33 @@ constexpr OutputBit kOutputBits[] = {{SIMDBEZIER_OUTPUT_POSITION, Output::positi
                                      {SIMDBEZIER_OUTPUT_STATUS, Output::status}};
 static_assert(std::size(kOutputBits) == kOutputs, "every output has its bit");
 
-template <typename T>
-Grid<T> where_of(const simdbezier_grid* given) {
-  const simdbezier_grid known = read(given, kGrid);
-  return {
-      known.nu,
-      known.nv,
-      grid_parameters<T>(known.u, known.u_length, known.nu, known.scalar, kGrid, {"u", "u_length"}),
-      grid_parameters<T>(known.v, known.v_length, known.nv, known.scalar, kGrid, {"v", "v_length"}),
-      parameters_of(known.parameters, kGrid),
-      range_of(known.first_patch, known.patch_count)};
-}
-
-template <typename T>
-PatchGrids where_of(const simdbezier_patch_grids* given) {
-  const simdbezier_patch_grids known = read(given, kGrids);
-  return {span_of(known.nu, known.nu_length, kGrids / "nu"),
-          span_of(known.nv, known.nv_length, kGrids / "nv"),
-          span_of(known.offset, known.offset_length, kGrids / "offset"),
-          {known.first_patch, SetRange::kToTheEnd}};
-}
-
-template <typename T>
-Samples<T> where_of(const simdbezier_samples* given) {
-  const simdbezier_samples known = read(given, kSamples);
-  return {span_of(known.patch, known.patch_length, kSamples / "patch"),
-          sample_parameters<T>(known.u, known.u_length, known.scalar, kSamples, "u"),
-          sample_parameters<T>(known.v, known.v_length, known.scalar, kSamples, "v"),
-          parameters_of(known.parameters, kSamples)};
-}
-
-/// evaluate() of any kind of samples.
-template <typename Where>
-simdbezier_status evaluate_at(const char* function, const simdbezier_patch_set* set,
-                              const Where* given, const Path& path, const simdbezier_outputs* out,
+/// evaluate() of patches or curves at any kind of samples.
+template <typename Handle, typename Where, typename Out>
+simdbezier_status evaluate_at(const char* function, const Handle* set, const Where* where,
+                              const Path& path, const Out* out,
                               const simdbezier_options* options) noexcept {
-  return evaluate_set(function, set, path, options, [&]<typename T>(std::type_identity<T>) {
-    return SetCall{where_of<T>(given), outputs_of<T>(out)};
+  return answer(function, [&] {
+    with_object(set, kSet,
+                [&]<template <typename> typename Set, typename T>(const Set<T>& members) {
+                  const auto at = where_of<T>(read(where, path));
+                  const auto to = outputs_of<T>(out);
+                  const Options how = call_options_of(options);
+                  require_ok(evaluate(members, at, to, how), [&](Status status) {
+                    return blamed_in_evaluation<Out>(status, path, to, sample_count(members, at),
+                                                     members.components());
+                  });
+                });
+  });
+}
+
+/// How many samples a set has; 0 where something is wrong.
+template <typename Handle, typename Where>
+std::size_t samples_at(const Handle* set, const Where* where, const Path& path) noexcept {
+  return size_or_zero([&] {
+    return with_object(set, kSet,
+                       [&]<template <typename> typename Set, typename T>(const Set<T>& members) {
+                         return sample_count(members, where_of<T>(read(where, path)));
+                       });
   });
 }
 
@@ -81,13 +69,13 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
                                  const simdbezier_options* options) noexcept {
   return answer(function, [&] {
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const auto where = where_of<T>(given);
+      const auto where = where_of<T>(read(given, path));
       std::vector<PartialDerivative<T>> wanted;
       reserve(wanted, length);
       for (std::size_t k = 0; k < length; ++k) {
         const auto one = read_element(derivatives, k, "derivatives");
         wanted.push_back(
-            {one.order_u, one.order_v, vectors_of<T>(one.out, Path{"derivatives", k} / "out")});
+            {one.order_u, one.order_v, output_of<T>(one.out, Path{"derivatives", k} / "out")});
       }
       const Options how = call_options_of(options);
       const DerivativeOutputs<T> out(wanted, first_component);
@@ -105,7 +93,7 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
 
 TileFormat format_of(const simdbezier_tile_format* given) {
   const Path path{"format"};
-  const simdbezier_tile_format known = read_options(given, path);
+  const auto known = read_options(given, path);
   TileFormat format;
   if (known.outputs != 0) {
     format.outputs = {};
@@ -124,23 +112,24 @@ TileFormat format_of(const simdbezier_tile_format* given) {
   return format;
 }
 
+/// The outputs of a tile as structs.
+template <typename T>
+void give_back(simdbezier_vectors& known, const Vectors<T>& out, std::size_t samples) noexcept {
+  known = {out.x, out.y, out.z, out.stride, samples, kScalar<T>};
+}
+template <typename T>
+void give_back(simdbezier_values& known, const Values<T>& out, std::size_t samples) noexcept {
+  known = {out.first, samples, kScalar<T>};
+}
 template <typename T>
 simdbezier_outputs given_back(const Outputs<T>& out, std::size_t samples) noexcept {
   simdbezier_outputs known{};
   known.struct_size = sizeof known;
-  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-    const Vectors<T>& vectors = out[static_cast<Output>(k)];
-    if (vectors.wanted()) {
-      known.*kVectorMembers[k] = {vectors.x,      vectors.y, vectors.z,
-                                  vectors.stride, samples,   kScalar<T>};
+  for_outputs(known, out, [&](auto& to, const auto& from, const char*) {
+    if (from.wanted()) {
+      give_back(to, from, samples);
     }
-  }
-  const auto values = [&](const Values<T>& of) {
-    return of.wanted() ? simdbezier_values{of.first, samples, kScalar<T>} : simdbezier_values{};
-  };
-  for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
-    known.*kCurvatureMembers[k] = values(out.curvature[static_cast<Curvature>(k)]);
-  }
+  });
   if (out.status.wanted()) {
     known.status = reinterpret_cast<std::uint8_t*>(out.status.first);
     known.status_length = samples;
@@ -181,12 +170,43 @@ simdbezier_status simdbezier_evaluate_samples(const simdbezier_patch_set* set,
 }
 
 size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set, const simdbezier_grid* grid) {
-  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grid); });
+  return samples_at(set, grid, kGrid);
 }
 
 size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,
                                            const simdbezier_patch_grids* grids) {
-  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grids); });
+  return samples_at(set, grids, kGrids);
+}
+
+simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
+                                                 const simdbezier_curve_grid* grid,
+                                                 const simdbezier_curve_outputs* out,
+                                                 const simdbezier_options* options) {
+  return evaluate_at(__func__, set, grid, kGrid, out, options);
+}
+
+simdbezier_status simdbezier_evaluate_curve_grids(const simdbezier_curve_set* set,
+                                                  const simdbezier_curve_grids* grids,
+                                                  const simdbezier_curve_outputs* out,
+                                                  const simdbezier_options* options) {
+  return evaluate_at(__func__, set, grids, kGrids, out, options);
+}
+
+simdbezier_status simdbezier_evaluate_curve_samples(const simdbezier_curve_set* set,
+                                                    const simdbezier_curve_samples* samples,
+                                                    const simdbezier_curve_outputs* out,
+                                                    const simdbezier_options* options) {
+  return evaluate_at(__func__, set, samples, kSamples, out, options);
+}
+
+size_t simdbezier_curve_grid_sample_count(const simdbezier_curve_set* set,
+                                          const simdbezier_curve_grid* grid) {
+  return samples_at(set, grid, kGrid);
+}
+
+size_t simdbezier_curve_grids_sample_count(const simdbezier_curve_set* set,
+                                           const simdbezier_curve_grids* grids) {
+  return samples_at(set, grids, kGrids);
 }
 
 simdbezier_status
@@ -213,7 +233,7 @@ simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
   return answer(__func__, [&] {
     require(function != nullptr, SIMDBEZIER_NULL_INPUT, {"function"});
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const Grid<T> where = where_of<T>(grid);
+      const Grid<T> where = where_of<T>(read(grid, kGrid));
       const TileFormat as = format_of(format);
       const Options how = call_options_of(options);
       const auto hand_over = [&](const Tile<T>& tile) {
@@ -236,7 +256,7 @@ size_t simdbezier_largest_tile(const simdbezier_patch_set* set, const simdbezier
                                const simdbezier_tile_format* format) {
   return size_or_zero([&] {
     return with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      return largest_tile(patches, where_of<T>(grid), format_of(format));
+      return largest_tile(patches, where_of<T>(read(grid, kGrid)), format_of(format));
     });
   });
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -33,6 +34,23 @@ struct Path {
     return path;
   }
 };
+
+/// A row of a table that says what the statuses of a call are about.
+struct Blame {
+  std::initializer_list<Status::Code> statuses;
+  Path path;
+};
+/// The path of the first row that has the status.
+inline Path blamed(Status status, std::initializer_list<Blame> rows, const Path& otherwise) {
+  for (const Blame& row : rows) {
+    for (const Status::Code code : row.statuses) {
+      if (status == code) {
+        return row.path;
+      }
+    }
+  }
+  return otherwise;
+}
 
 struct Fault {
   simdbezier_status status = SIMDBEZIER_OK;
@@ -72,6 +90,14 @@ void require_ok(const Report& report, PathOf path_of) {
   }
 }
 
+/// The same for reports that name a patch or a curve, but none of its points.
+template <typename PathOf>
+void require_item(const Report& report, PathOf path_of) {
+  if (!report) {
+    throw Fault{code_of(report.status), path_of(report.status), report.item};
+  }
+}
+
 /// The body of a function: runs it and says how it ended.
 template <typename Body>
 simdbezier_status answer(const char* function, Body body) noexcept {
@@ -92,9 +118,7 @@ template <typename Body>
 std::size_t size_or_zero(Body body) noexcept {
   try {
     return body();
-  } catch (const Fault&) {
-    return 0;
-  } catch (const std::bad_alloc&) {
+  } catch (...) {
     return 0;
   }
 }

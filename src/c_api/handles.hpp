@@ -46,17 +46,26 @@ struct simdbezier_mesh {
 
 namespace simdbezier::c_api {
 
-/// body(object) with the C++ object behind a handle, of one of two number types.
-template <typename Handle, typename Body>
-auto with_object(const Handle* handle, const Path& path, Body body) {
-  require(handle != nullptr, SIMDBEZIER_NULL_INPUT, path);
-  return std::visit(body, handle->of);
-}
-
 template <typename Handle>
 const auto& object_of(const Handle* handle, const Path& path) {
   require(handle != nullptr, SIMDBEZIER_NULL_INPUT, path);
   return handle->of;
+}
+
+/// body(object) with the C++ object behind a handle, of one of two number types.
+template <typename Handle, typename Body>
+auto with_object(const Handle* handle, const Path& path, Body body) {
+  return std::visit(body, object_of(handle, path));
+}
+
+/// Writes arrays or numbers of an object into the caller's struct: result_of(object).
+template <typename Handle, typename Struct, typename ResultOf>
+simdbezier_status look(const char* function, const Handle* handle, const Path& path, Struct* result,
+                       const Path& result_path, ResultOf result_of) noexcept {
+  return answer(function, [&] {
+    require_writable(result, result_path);
+    with_object(handle, path, [&](const auto& object) { write(result, result_of(object)); });
+  });
 }
 
 /// Hands an object to the caller.
@@ -91,7 +100,7 @@ inline simdbezier_topology_counts counts_of(const TopologyCounts& of) noexcept {
 }
 
 inline Camera camera_of(const simdbezier_camera* given, const Path& path) {
-  const simdbezier_camera known = read_options(given, path);
+  const auto known = read_options(given, path);
   Camera camera;
   std::copy_n(known.eye, 3, camera.eye.begin());
   if (known.direction[0] != 0 || known.direction[1] != 0 || known.direction[2] != 0) {

@@ -60,30 +60,17 @@ simdbezier_status record(const char* function, const Fault& fault) noexcept {
 }
 
 Path blamed_nets(Status status, const Path& nets) {
-  switch (status.code()) {
-  case Status::null_input:
-  case Status::null_output:
-  case Status::non_finite_input:
-  case Status::coefficient_overflow:
-  case Status::overlapping_outputs:
-    return nets / "points";
-  case Status::input_too_small:
-  case Status::output_too_small:
-    return nets / "length";
-  case Status::bad_degree:
-    return nets / "degree_u or degree_v";
-  case Status::bad_components:
-    return nets / "components";
-  case Status::bad_weight:
-    return nets / "weights";
-  case Status::bad_patch_range:
-  case Status::size_overflow:
-    return nets / "count";
-  case Status::bad_stride:
-    return nets;
-  default:
-    return blamed_in_call(status, {});
-  }
+  return blamed(status,
+                {{{Status::null_input, Status::null_output, Status::non_finite_input,
+                   Status::coefficient_overflow, Status::overlapping_outputs},
+                  nets / "points"},
+                 {{Status::input_too_small, Status::output_too_small}, nets / "length"},
+                 {{Status::bad_degree}, nets / "degree_u or degree_v"},
+                 {{Status::bad_components}, nets / "components"},
+                 {{Status::bad_weight}, nets / "weights"},
+                 {{Status::bad_patch_range, Status::size_overflow}, nets / "count"},
+                 {{Status::bad_stride}, nets}},
+                blamed_in_call(status, {}));
 }
 
 Path blamed_curves(Status status, const Path& curves) {
@@ -91,26 +78,16 @@ Path blamed_curves(Status status, const Path& curves) {
 }
 
 Path blamed_in_call(Status status, const Path& where) {
-  switch (status.code()) {
-  case Status::unknown_isa:
-  case Status::unsupported_isa:
-    return kOptions / "isa";
-  case Status::null_output:
-  case Status::missing_y:
-  case Status::missing_z:
-  case Status::extra_y:
-  case Status::extra_z:
-  case Status::overlapping_outputs:
-  case Status::output_too_small:
-  case Status::bad_stride:
-    return {"out"};
-  case Status::bad_components:
-    return Path{"out"} / "first_component";
-  case Status::out_of_memory:
-    return {};
-  default:
-    return where;
-  }
+  const Path out{"out"};
+  return blamed(status,
+                {{{Status::unknown_isa, Status::unsupported_isa}, kOptions / "isa"},
+                 {{Status::null_output, Status::missing_y, Status::missing_z, Status::extra_y,
+                   Status::extra_z, Status::overlapping_outputs, Status::output_too_small,
+                   Status::bad_stride},
+                  out},
+                 {{Status::bad_components}, out / "first_component"},
+                 {{Status::out_of_memory}, {}}},
+                where);
 }
 
 } // namespace simdbezier::c_api

@@ -24,14 +24,10 @@ static_assert(kUnknownVertex == UINT64_MAX && kNoLayoutVertex == UINT32_MAX);
 /// What a status of a call about a part is about.
 auto about(const char* output) {
   return [output](Status status) -> Path {
-    switch (status.code()) {
-    case Status::bad_patch_range:
-      return {"own_first or own_count"};
-    case Status::unequal_lengths:
-      return {"ghosts_length"};
-    default:
-      return {output};
-    }
+    return blamed(status,
+                  {{{Status::bad_patch_range}, {"own_first or own_count"}},
+                   {{Status::unequal_lengths}, {"ghosts_length"}}},
+                  {output});
   };
 }
 
@@ -47,10 +43,10 @@ simdbezier_status simdbezier_find_patch_keys(const simdbezier_nets* nets, size_t
                                              simdbezier_patch_keys* keys, size_t keys_length,
                                              const simdbezier_options* options) {
   return answer(__func__, [&] {
-    const std::span<simdbezier_patch_keys> out = span_of(keys, keys_length, {"keys"});
+    const std::span<PatchKeys> out = in_place<PatchKeys>(SIMDBEZIER_ARRAY(keys));
     const Options how = call_options_of(options);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      require_ok(find_patch_keys(views, in_place<PatchKeys>(out), how), [](Status status) {
+    with_net_array(nets, length, [&](const auto& views) {
+      require_ok(find_patch_keys(views, out, how), [](Status status) {
         return status == Status::output_too_small ? Path{"keys"} : blamed_nets(status, {"nets"});
       });
     });
@@ -61,9 +57,8 @@ simdbezier_status simdbezier_owned_vertices(const simdbezier_mesh_layout* part, 
                                             size_t own_count, uint64_t first_vertex,
                                             simdbezier_patch_vertices* out, size_t length) {
   return answer(__func__, [&] {
-    const std::span<simdbezier_patch_vertices> places = span_of(out, length, {"out"});
-    require_ok(owned_vertices(object_of(part, kPart), {own_first, own_count}, first_vertex,
-                              in_place<PatchVertices>(places)),
+    const auto places = in_place<PatchVertices>(span_of(out, length, {"out"}));
+    require_ok(owned_vertices(object_of(part, kPart), {own_first, own_count}, first_vertex, places),
                about("out"));
   });
 }
@@ -74,11 +69,9 @@ simdbezier_status simdbezier_number_part(const simdbezier_mesh_layout* part, siz
                                          size_t ghosts_length, uint64_t* numbers,
                                          size_t numbers_length) {
   return answer(__func__, [&] {
-    const std::span<const simdbezier_patch_vertices> told =
-        span_of(ghosts, ghosts_length, {"ghosts"});
-    const std::span<std::uint64_t> out = span_of(numbers, numbers_length, {"numbers"});
-    require_ok(number_part(object_of(part, kPart), {own_first, own_count}, first_vertex,
-                           in_place<const PatchVertices>(told), out),
+    const auto told = in_place<const PatchVertices>(SIMDBEZIER_ARRAY(ghosts));
+    const std::span<std::uint64_t> out = SIMDBEZIER_ARRAY(numbers);
+    require_ok(number_part(object_of(part, kPart), {own_first, own_count}, first_vertex, told, out),
                about("numbers"));
   });
 }

@@ -21,17 +21,13 @@ static_assert(sizeof(simdbezier_patch_piece) == sizeof(PatchPiece) &&
               offsetof(simdbezier_patch_piece, error) == offsetof(PatchPiece, error));
 
 MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
-  const simdbezier_mesh_options known = read(given, kOptions);
+  const auto known = read(given, kOptions);
   MeshOptions options;
-  options.rates.tolerance = limit_of(known.tolerance);
+  set_limits(options.rates, known);
   options.relative_tolerance = limit_of(known.relative_tolerance);
-  options.rates.tolerances =
-      span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
   options.pixels = limit_of(known.pixels);
   require(known.pixels == 0 || known.camera != nullptr, SIMDBEZIER_NULL_INPUT, kOptions / "camera");
   options.camera = camera_of(known.camera, kOptions / "camera");
-  options.rates.longest_edge = limit_of(known.longest_edge);
-  options.rates.normal_degrees = limit_of(known.normal_degrees);
   options.nu = known.nu;
   options.nv = known.nv;
   options.topology.point_size = known.point_size;
@@ -64,24 +60,17 @@ const char* blamed_measure(const MeshOptions& options) {
                                                      : "tolerance";
 }
 
-/// blamed_points(status): what of the points is at fault where no option is.
-template <typename BlamedPoints>
-Path blamed_in_tessellation(Status status, const MeshOptions& options, BlamedPoints blamed_points) {
+/// points: what of these is at fault where no option is.
+Path blamed_in_tessellation(Status status, const MeshOptions& options, const Path& points) {
   const bool few = options.nu < 2 || options.nv < 2;
-  switch (status.code()) {
-  case Status::bad_tolerance:
-    return kOptions / blamed_measure(options);
-  case Status::bad_grid:
-    return kOptions / (few ? "nu or nv" : "nu and nv beside a tolerance");
-  case Status::bad_rates:
-    return kOptions / (options.nu != 0 ? "nu or nv" : "tolerances");
-  case Status::snap_too_large:
-    return kOptions / "snap";
-  case Status::not_orientable:
-    return kOptions / "orient";
-  default:
-    return blamed_points(status);
-  }
+  return blamed(
+      status,
+      {{{Status::bad_tolerance}, kOptions / blamed_measure(options)},
+       {{Status::bad_grid}, kOptions / (few ? "nu or nv" : "nu and nv beside a tolerance")},
+       {{Status::bad_rates}, kOptions / (options.nu != 0 ? "nu or nv" : "tolerances")},
+       {{Status::snap_too_large}, kOptions / "snap"},
+       {{Status::not_orientable}, kOptions / "orient"}},
+      points);
 }
 
 template <typename Known>
@@ -133,61 +122,32 @@ simdbezier_mesh_plan_parts parts_of(const simdbezier_mesh_plan& plan) noexcept {
   return known;
 }
 
-/// Gives a mesh or a plan of one, or refuses the call for what it was refused for.
-template <typename Handle, typename Made, typename BlamedPoints>
-void give_made(Made&& made, const MeshOptions& options, Handle** handle,
-               BlamedPoints blamed_points) {
-  if (!made) {
-    throw Fault{code_of(made.report.status),
-                blamed_in_tessellation(made.report.status, options, blamed_points),
-                made.report.item};
-  }
-  give(handle, std::forward<Made>(made));
-}
-
-/// A mesh or a plan of one, which `call` makes.
-template <typename Handle, typename Call>
-simdbezier_status make(const char* function, const simdbezier_nets* nets, std::size_t length,
+/// A mesh or a plan of one, which call(views, options, report of splines) makes of nets or splines.
+template <typename Struct, typename Handle, typename Call>
+simdbezier_status make(const char* function, const Struct* models, std::size_t length,
                        simdbezier_scalar scalar, const simdbezier_mesh_options* options,
                        Handle** handle, const char* name, Call call) noexcept {
   return answer(function, [&] {
+    constexpr bool kSplines = std::is_same_v<Struct, simdbezier_spline_surface>;
+    constexpr const char* kModels = kSplines ? "surfaces" : "nets";
     require_place(handle, {name});
     const MeshOptions how = mesh_options_of(options);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+    with_array(models, length, kModels, [&](const auto& views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
-        auto made = call.template operator()<T>(views, how);
-        const std::size_t patch = made.report.item;
-        give_made(std::move(made), how, handle, [&](Status status) {
-          return blamed_nets(status, nets_with_patch(views, patch));
-        });
-      });
-    });
-  });
-}
-
-/// The same of splines.
-template <typename Handle, typename Call>
-simdbezier_status make(const char* function, const simdbezier_spline_surface* surfaces,
-                       std::size_t length, simdbezier_scalar scalar,
-                       const simdbezier_mesh_options* options, Handle** handle, const char* name,
-                       Call call) noexcept {
-  return answer(function, [&] {
-    require_place(handle, {name});
-    const MeshOptions how = mesh_options_of(options);
-    with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
-      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
-        Report report;
-        auto made = call.template operator()<T>(views, how, &report);
-        require_spline(report, {"surfaces", report.item}, kSurfaceNames);
-        const std::size_t patch = made.report.item;
-        give_made(std::move(made), how, handle, [&](Status status) {
-          std::size_t k = 0;
-          std::size_t end = 0; // of the patches of surface k
-          while (k + 1 < views.size() && patch >= (end += span_count(views[k]).patches())) {
-            ++k;
+        Report own;
+        auto made = [&] {
+          if constexpr (kSplines) {
+            return call.template operator()<T>(views, how, &own);
+          } else {
+            return call.template operator()<T>(views, how);
           }
-          return blamed_nets(status, {"surfaces", k});
+        }();
+        require_spline(own, {kModels, own.item}, kSurfaceNames);
+        require_item(made.report, [&](Status status) {
+          const Path model = element_with_patch(kModels, views, made.report.item);
+          return blamed_in_tessellation(status, how, blamed_nets(status, model));
         });
+        give(handle, std::move(made));
       });
     });
   });
@@ -218,18 +178,14 @@ void simdbezier_mesh_free(simdbezier_mesh* mesh) { delete mesh; }
 
 simdbezier_status simdbezier_mesh_look(const simdbezier_mesh* mesh,
                                        simdbezier_mesh_arrays* arrays) {
-  return answer(__func__, [&] {
-    require_writable(arrays, {"arrays"});
-    with_object(mesh, {"mesh"}, [&](const auto& of) { write(arrays, arrays_of(of)); });
-  });
+  return look(__func__, mesh, {"mesh"}, arrays, {"arrays"},
+              [](const auto& of) { return arrays_of(of); });
 }
 
 simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
                                         simdbezier_topology_counts* counts) {
-  return answer(__func__, [&] {
-    require_writable(counts, {"counts"});
-    with_object(mesh, {"mesh"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
-  });
+  return look(__func__, mesh, {"mesh"}, counts, {"counts"},
+              [](const auto& of) { return counts_of(of.counts); });
 }
 
 simdbezier_status simdbezier_plan_mesh(const simdbezier_nets* nets, size_t length,
@@ -252,10 +208,8 @@ simdbezier_status simdbezier_mesh_plan_look(const simdbezier_mesh_plan* plan,
 
 simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mesh_plan* plan,
                                              simdbezier_topology_counts* counts) {
-  return answer(__func__, [&] {
-    require_writable(counts, {"counts"});
-    with_object(plan, {"plan"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
-  });
+  return look(__func__, plan, {"plan"}, counts, {"counts"},
+              [](const auto& of) { return counts_of(of.counts); });
 }
 
 simdbezier_status simdbezier_spline_tessellate(const simdbezier_spline_surface* surfaces,

@@ -8,6 +8,7 @@
 namespace simdbezier::c_api {
 namespace {
 
+constexpr Path kNets{"nets"};
 constexpr Path kTopology{"topology"};
 
 // Links are written in place.
@@ -28,14 +29,11 @@ simdbezier_status simdbezier_find_adjacency(const simdbezier_nets* nets, size_t 
                                             simdbezier_edge_link* links, size_t link_length,
                                             const simdbezier_options* options) {
   return answer(__func__, [&] {
-    const std::span<simdbezier_edge_link> out = span_of(links, link_length, {"links"});
+    const std::span<EdgeLink> out = in_place<EdgeLink>(span_of(links, link_length, {"links"}));
     const Options how = call_options_of(options);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const std::span<EdgeLink> places = in_place<EdgeLink>(out);
-      require_ok(find_adjacency(views, Values<EdgeLink>(places), how), [&](Status status) {
-        const bool output = status == Status::null_output || status == Status::output_too_small ||
-                            status == Status::overlapping_outputs;
-        return output ? Path{"links"} : blamed_nets(status, {"nets"});
+    with_net_array(nets, length, [&](const auto& views) {
+      require_ok(find_adjacency(views, Values<EdgeLink>(out), how), [&](Status status) {
+        return blamed(status, {{kOutputFaults, {"links"}}}, blamed_nets(status, kNets));
       });
     });
   });
@@ -46,18 +44,19 @@ simdbezier_status simdbezier_find_topology(const simdbezier_nets* nets, size_t l
                                            simdbezier_topology** topology) {
   return answer(__func__, [&] {
     require_place(topology, kTopology);
-    const simdbezier_topology_options known = read_options(options, kOptions);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+    const auto known = read_options(options, kOptions);
+    TopologyOptions how;
+    how.point_size = known.point_size;
+    how.orient = known.orient != 0;
+    how.flip = known.flip != 0;
+    how.snap = known.snap;
+    with_net_array(nets, length, [&](const auto& views) {
       Topology found;
-      TopologyOptions how;
-      how.point_size = known.point_size;
-      how.orient = known.orient != 0;
-      how.flip = known.flip != 0;
-      how.snap = known.snap;
       require_ok(find_topology(views, found, how, {.threads = known.threads}), [&](Status status) {
-        return status == Status::bad_tolerance    ? kOptions / "point_size or snap"
-               : status == Status::not_orientable ? kOptions / "orient"
-                                                  : blamed_nets(status, {"nets"});
+        return blamed(status,
+                      {{{Status::bad_tolerance}, kOptions / "point_size or snap"},
+                       {{Status::not_orientable}, kOptions / "orient"}},
+                      blamed_nets(status, kNets));
       });
       give(topology, std::move(found));
     });
@@ -70,9 +69,9 @@ simdbezier_status simdbezier_topology_fits(const simdbezier_topology* topology,
   return answer(__func__, [&] {
     const Topology& joined = object_of(topology, kTopology);
     require(fits != nullptr, SIMDBEZIER_NULL_OUTPUT, {"fits"});
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+    with_net_array(nets, length, [&](const auto& views) {
       require_ok(detail::check_model(views),
-                 [](Status status) { return blamed_nets(status, {"nets"}); });
+                 [](Status status) { return blamed_nets(status, kNets); });
       *fits = simdbezier::fits(joined, views, {.threads = threads}) ? 1 : 0;
     });
   });

@@ -16,26 +16,16 @@ static_assert(int{SIMDBEZIER_MOST_BOX_LEVELS} == kMostBoxLevels);
 
 /// What an operation was refused for: faults of outputs are those of `out`. What nets and outputs
 /// may both have is an output's fault where the nets are sound.
-Path blamed(Status status, bool sound, const Path& out) {
-  switch (status.code()) {
-  case Status::null_output:
-  case Status::output_too_small:
-  case Status::overlapping_outputs:
-  case Status::bad_patch_range:
-    return blamed_nets(status, out);
-  case Status::bad_components:
-    return sound ? out / "components or weights" : blamed_nets(status, kNets);
-  case Status::bad_degree:
-  case Status::bad_stride:
-  case Status::size_overflow:
-    return blamed_nets(status, sound ? out : kNets);
-  default:
-    return blamed_nets(status, kNets);
-  }
-}
-template <typename T>
-bool is_sound(const ControlNets<T>& nets) noexcept {
-  return detail::check_input(nets) == Status::ok;
+Path blamed_in(Status status, bool sound, const Path& out) {
+  return blamed(status,
+                {{{Status::null_output, Status::output_too_small, Status::overlapping_outputs,
+                   Status::bad_patch_range},
+                  blamed_nets(status, out)},
+                 {{Status::bad_components},
+                  sound ? out / "components or weights" : blamed_nets(status, kNets)},
+                 {{Status::bad_degree, Status::bad_stride, Status::size_overflow},
+                  blamed_nets(status, sound ? out : kNets)}},
+                blamed_nets(status, kNets));
 }
 
 /// body(ControlNets<T>, options) of the nets' type; `out` names the outputs.
@@ -43,19 +33,20 @@ template <typename Body>
 simdbezier_status operate(const char* function, const simdbezier_nets* nets,
                           const simdbezier_options* options, const Path& out, Body body) noexcept {
   return answer(function, [&] {
-    const simdbezier_nets given = read(nets, kNets);
+    const auto given = read(nets, kNets);
     const Options how = call_options_of(options);
-    with_scalar(given.scalar, kNets / "scalar", [&]<typename T>() {
-      const ControlNets<T> in = nets_of<T>(given, kNets);
-      require_ok(body(in, how), [&](Status status) { return blamed(status, is_sound(in), out); });
+    with_view(given, [&](const auto& in) {
+      require_ok(body(in, how), [&](Status status) {
+        return blamed_in(status, detail::check_input(in) == Status::ok, out);
+      });
     });
   });
 }
 
 template <typename T>
-MutableNets<T> output_of(const simdbezier_mutable_nets* out, const Path& path) {
+MutableNets<T> written_to(const simdbezier_mutable_nets* out, const Path& path) {
   require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, path);
-  return nets_of<T>(read(out, path), path);
+  return view_of<T>(read(out, path));
 }
 
 /// The operations from nets to nets that take no further arguments.
@@ -65,7 +56,7 @@ simdbezier_status operate(const char* function, const simdbezier_nets* nets,
                           Call call) noexcept {
   return operate(function, nets, options, kOut,
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
-                   return call(in, output_of<T>(out, kOut), how);
+                   return call(in, written_to<T>(out, kOut), how);
                  });
 }
 
@@ -77,8 +68,8 @@ simdbezier_status split_in_two(const char* function, const simdbezier_nets* nets
                                const simdbezier_options* options, Call call) noexcept {
   return operate(function, nets, options, {"low or high"},
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
-                   return call(in, parameter_of<T>(at, path), output_of<T>(low, {"low"}),
-                               output_of<T>(high, {"high"}), how);
+                   return call(in, parameter_of<T>(at, path), written_to<T>(low, {"low"}),
+                               written_to<T>(high, {"high"}), how);
                  });
 }
 
@@ -89,7 +80,7 @@ simdbezier_status change_basis(const char* function, simdbezier_basis basis,
   return operate(function, nets, options, kOut,
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
                    const auto from = choice(basis, Basis::b_spline, {"basis"});
-                   const MutableNets<T> to = output_of<T>(out, kOut);
+                   const MutableNets<T> to = written_to<T>(out, kOut);
                    const auto report = call(from, in, to, how);
                    const bool alike = to.degree_u == in.degree_u && to.degree_v == in.degree_v;
                    require(!alike || report.status != Status::bad_degree, SIMDBEZIER_BAD_DEGREE,
@@ -104,7 +95,7 @@ simdbezier_status boxes(const char* function, const simdbezier_nets* nets, simdb
                         Call call) noexcept {
   return operate(function, nets, options, {"low or high"},
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
-                   const Boxes<T> out{values_of<T>(low, {"low"}), values_of<T>(high, {"high"})};
+                   const Boxes<T> out{output_of<T>(low, {"low"}), output_of<T>(high, {"high"})};
                    return call(in, out, how);
                  });
 }
@@ -141,7 +132,7 @@ simdbezier_status simdbezier_split(const simdbezier_nets* nets, simdbezier_param
         require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
         std::array<MutableNets<T>, 4> quarters;
         for (std::size_t k = 0; k < 4; ++k) {
-          quarters[k] = nets_of<T>(read_element(out, k, "out"), {"out", k});
+          quarters[k] = view_of<T>(read_element(out, k, "out"));
         }
         return split(in, parameter_of<T>(u, {"u"}), parameter_of<T>(v, {"v"}), quarters, how);
       });
@@ -155,45 +146,23 @@ simdbezier_status simdbezier_segment(const simdbezier_nets* nets, simdbezier_par
       __func__, nets, options, kOut, [&]<typename T>(const ControlNets<T>& in, const Options& how) {
         const SubPatch<T> piece{parameter_of<T>(u0, {"u0"}), parameter_of<T>(u1, {"u1"}),
                                 parameter_of<T>(v0, {"v0"}), parameter_of<T>(v1, {"v1"})};
-        return segment(in, piece, output_of<T>(out, kOut), how);
+        return segment(in, piece, written_to<T>(out, kOut), how);
       });
 }
 
-simdbezier_status simdbezier_elevate(const simdbezier_nets* nets,
-                                     const simdbezier_mutable_nets* out,
-                                     const simdbezier_options* options) {
-  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(elevate));
-}
-
-simdbezier_status simdbezier_hodograph_u(const simdbezier_nets* nets,
-                                         const simdbezier_mutable_nets* out,
-                                         const simdbezier_options* options) {
-  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(hodograph_u));
-}
-
-simdbezier_status simdbezier_hodograph_v(const simdbezier_nets* nets,
-                                         const simdbezier_mutable_nets* out,
-                                         const simdbezier_options* options) {
-  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(hodograph_v));
-}
-
-simdbezier_status simdbezier_reverse_u(const simdbezier_nets* nets,
-                                       const simdbezier_mutable_nets* out,
-                                       const simdbezier_options* options) {
-  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(reverse_u));
-}
-
-simdbezier_status simdbezier_reverse_v(const simdbezier_nets* nets,
-                                       const simdbezier_mutable_nets* out,
-                                       const simdbezier_options* options) {
-  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(reverse_v));
-}
-
-simdbezier_status simdbezier_transpose(const simdbezier_nets* nets,
-                                       const simdbezier_mutable_nets* out,
-                                       const simdbezier_options* options) {
-  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(transpose));
-}
+// The operations from nets to nets that take no further arguments.
+#define SIMDBEZIER_OPERATION(operation)                                                            \
+  simdbezier_status simdbezier_##operation(const simdbezier_nets* nets,                            \
+                                           const simdbezier_mutable_nets* out,                     \
+                                           const simdbezier_options* options) {                    \
+    return operate(__func__, nets, out, options, SIMDBEZIER_CALL(operation));                      \
+  }
+SIMDBEZIER_OPERATION(elevate)
+SIMDBEZIER_OPERATION(hodograph_u)
+SIMDBEZIER_OPERATION(hodograph_v)
+SIMDBEZIER_OPERATION(reverse_u)
+SIMDBEZIER_OPERATION(reverse_v)
+SIMDBEZIER_OPERATION(transpose)
 
 simdbezier_status simdbezier_to_bezier(simdbezier_basis basis, const simdbezier_nets* nets,
                                        const simdbezier_mutable_nets* out,
@@ -227,6 +196,6 @@ simdbezier_status simdbezier_flatness(const simdbezier_nets* nets, simdbezier_va
                                       const simdbezier_options* options) {
   return operate(__func__, nets, options, {"flatness"},
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
-                   return simdbezier::flatness(in, values_of<T>(flatness, {"flatness"}), how);
+                   return simdbezier::flatness(in, output_of<T>(flatness, {"flatness"}), how);
                  });
 }

@@ -14,22 +14,13 @@ constexpr Path kPolylines{"polylines"};
 
 static_assert(std::uint32_t{SIMDBEZIER_MOST_POLYLINE_POINTS} == kMostPolylinePoints);
 
-FlattenOptions flatten_options_of(const simdbezier_flatten_options* given) {
-  const simdbezier_flatten_options known = read(given, kOptions);
+FlattenOptions flatten_options_of(const Given<simdbezier_flatten_options>& known) {
   FlattenOptions options;
   options.tolerance = known.tolerance;
-  options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
-  options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
+  options.tolerances = SIMDBEZIER_SPAN(known, tolerances);
+  options.errors = SIMDBEZIER_SPAN(known, errors);
   options.most_points = known.most_points == 0 ? kMostPolylinePoints : known.most_points;
   return options;
-}
-
-/// body.operator()<S>(curves) with the caller's curves, S being their type.
-template <typename Body>
-void with_curves(const simdbezier_control_curves* given, Body body) {
-  const simdbezier_control_curves known = read(given, kCurves);
-  with_scalar(known.scalar, kCurves / "scalar",
-              [&]<typename S>() { body(curves_of<S>(known, kCurves)); });
 }
 
 /// The first of the spans that is not one value a curve.
@@ -65,25 +56,18 @@ simdbezier_status simdbezier_choose_polylines(const simdbezier_control_curves* c
                                               uint32_t* points, size_t points_length,
                                               double* deviation, size_t deviation_length) {
   return answer(__func__, [&] {
-    const FlattenOptions how = flatten_options_of(options);
-    const RunOptions run{.threads = read(options, kOptions).threads};
-    const std::span<std::uint32_t> to = span_of(points, points_length, {"points"});
-    const std::span<double> within = span_of(deviation, deviation_length, {"deviation"});
-    with_curves(curves, [&](const auto& views) {
-      const Report report = choose_polylines(views, how, to, within, run);
-      const auto path_of = [&](Status status) {
-        switch (status.code()) {
-        case Status::unequal_lengths:
-          return blamed_length(views.count, how, to.size());
-        case Status::bad_tolerance:
-          return blamed_tolerance(how, report.item);
-        default:
-          return blamed_curves(status, kCurves);
-        }
-      };
-      if (!report) {
-        throw Fault{code_of(report.status), path_of(report.status), report.item, -1};
-      }
+    const auto known = read(options, kOptions);
+    const FlattenOptions how = flatten_options_of(known);
+    const std::span<std::uint32_t> to = SIMDBEZIER_ARRAY(points);
+    const std::span<double> within = SIMDBEZIER_ARRAY(deviation);
+    with_view(read(curves, kCurves), [&](const auto& views) {
+      const Report report = choose_polylines(views, how, to, within, {.threads = known.threads});
+      require_item(report, [&](Status status) {
+        return blamed(status,
+                      {{{Status::unequal_lengths}, blamed_length(views.count, how, to.size())},
+                       {{Status::bad_tolerance}, blamed_tolerance(how, report.item)}},
+                      blamed_curves(status, kCurves));
+      });
     });
   });
 }
@@ -95,15 +79,13 @@ simdbezier_status simdbezier_flatten(const simdbezier_control_curves* curves,
   return answer(__func__, [&] {
     require_place(polylines, kPolylines);
     const Options how = call_options_of(options);
-    with_curves(curves, [&](const auto& views) {
+    with_view(read(curves, kCurves), [&](const auto& views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         Polylines<T> made = flatten<T>(views, tolerance, how);
-        if (!made) {
-          const bool toleranced = made.report.status == Status::bad_tolerance;
-          throw Fault{code_of(made.report.status),
-                      toleranced ? Path{"tolerance"} : blamed_curves(made.report.status, kCurves),
-                      made.report.item, -1};
-        }
+        require_item(made.report, [](Status status) {
+          return blamed(status, {{{Status::bad_tolerance}, {"tolerance"}}},
+                        blamed_curves(status, kCurves));
+        });
         give(polylines, std::move(made));
       });
     });
@@ -114,8 +96,6 @@ void simdbezier_polylines_free(simdbezier_polylines* polylines) { delete polylin
 
 simdbezier_status simdbezier_polylines_look(const simdbezier_polylines* polylines,
                                             simdbezier_polyline_arrays* arrays) {
-  return answer(__func__, [&] {
-    require_writable(arrays, {"arrays"});
-    with_object(polylines, kPolylines, [&](const auto& of) { write(arrays, arrays_of(of)); });
-  });
+  return look(__func__, polylines, kPolylines, arrays, {"arrays"},
+              [](const auto& of) { return arrays_of(of); });
 }

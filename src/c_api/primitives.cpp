@@ -23,17 +23,11 @@ static_assert(sizeof(simdbezier_cluster) == sizeof(MeshCluster) &&
 /// What a status of a writer is about.
 auto about(const char* output) {
   return [output](Status status) -> Path {
-    switch (status.code()) {
-    case Status::null_output:
-    case Status::output_too_small:
-      return {output};
-    case Status::size_overflow:
-      return kLayout;
-    case Status::bad_patch_range:
-      return kOptions / "first_patch or patch_count";
-    default:
-      return {};
-    }
+    return blamed(status,
+                  {{{Status::null_output, Status::output_too_small}, {output}},
+                   {{Status::size_overflow}, kLayout},
+                   {{Status::bad_patch_range}, kOptions / "first_patch or patch_count"}},
+                  {});
   };
 }
 
@@ -44,7 +38,7 @@ struct Primitives {
 };
 
 Primitives primitives_of(const simdbezier_primitive_options* given) {
-  const simdbezier_primitive_options known = read_options(given, kOptions);
+  const auto known = read_options(given, kOptions);
   Primitives how{{.threads = known.threads}, range_of(known.first_patch, known.patch_count)};
   how.options.destination = destination_of(known.destination);
   return how;
@@ -69,7 +63,7 @@ simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout
                               const simdbezier_primitive_options* options) noexcept {
   return answer(function, [&] {
     const std::span<Index> out = span_of(indices, length, {"indices"});
-    const std::span<std::uint8_t> of = span_of(sizes, sizes_length, {"sizes"});
+    const std::span<std::uint8_t> of = SIMDBEZIER_ARRAY(sizes);
     const Primitives how = primitives_of(options);
     require_ok(write_polygons(object_of(layout, kLayout), out, of, how.options, how.patches),
                about("indices or sizes"));
@@ -176,10 +170,8 @@ simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout
                                             uint8_t* corners, size_t corners_length,
                                             int32_t threads) {
   return answer(__func__, [&] {
-    const std::span<simdbezier_cluster> to = span_of(clusters, clusters_length, {"clusters"});
-    const ClusterOutputs out{in_place<MeshCluster>(to),
-                             span_of(vertices, vertices_length, {"vertices"}),
-                             span_of(corners, corners_length, {"corners"})};
+    const ClusterOutputs out{in_place<MeshCluster>(SIMDBEZIER_ARRAY(clusters)),
+                             SIMDBEZIER_ARRAY(vertices), SIMDBEZIER_ARRAY(corners)};
     require_ok(write_clusters(object_of(layout, kLayout), out, {.threads = threads}),
                about("clusters, vertices or corners"));
   });

@@ -18,42 +18,25 @@ constexpr Path kErrors{"errors"};
 static_assert(std::uint32_t{SIMDBEZIER_MOST_SEGMENTS} == kMostSegments);
 static_assert(std::uint32_t{SIMDBEZIER_MOST_GRID_CELLS} == kMostGridCells);
 
-struct RateSpans {
-  std::span<std::uint32_t> cells_u;
-  std::span<std::uint32_t> cells_v;
-  std::span<std::uint16_t> diagonals;
-  std::span<double> deviation;
-};
-
-RateSpans rates_of(const simdbezier_rates* given) {
-  const simdbezier_rates known = read(given, kRates);
-  return {span_of(known.cells_u, known.cells_u_length, kRates / "cells_u"),
-          span_of(known.cells_v, known.cells_v_length, kRates / "cells_v"),
-          span_of(known.diagonals, known.diagonals_length, kRates / "diagonals"),
-          span_of(known.deviation, known.deviation_length, kRates / "deviation")};
+CertifiedRates rates_of(const simdbezier_rates* given) {
+  const auto rates = read(given, kRates);
+  return {SIMDBEZIER_SPAN(rates, cells_u), SIMDBEZIER_SPAN(rates, cells_v),
+          SIMDBEZIER_SPAN(rates, diagonals), SIMDBEZIER_SPAN(rates, deviation)};
 }
 
-CertifiedRates certified(const RateSpans& rates) {
-  return {rates.cells_u, rates.cells_v, rates.diagonals, rates.deviation};
-}
-
-RateOptions rate_options_of(const simdbezier_rate_options* given) {
-  const simdbezier_rate_options known = read(given, kOptions);
+RateOptions rate_options_of(const Given<simdbezier_rate_options>& known) {
   RateOptions options;
-  options.tolerance = limit_of(known.tolerance);
-  options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
-  options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
-  options.longest_edge = limit_of(known.longest_edge);
+  set_limits(options, known);
+  options.errors = SIMDBEZIER_SPAN(known, errors);
   if (known.most_segments != 0) {
     options.most_segments = known.most_segments;
   }
-  options.normal_degrees = limit_of(known.normal_degrees);
   options.keep = known.keep;
   return options;
 }
 
 /// What bad_rates is about: the first span that is not one value a patch, else rates themselves.
-Path blamed_rates(const RateSpans& rates, std::size_t patches, bool without_diagonals) {
+Path blamed_rates(const CertifiedRates& rates, std::size_t patches, bool without_diagonals) {
   const std::tuple<const char*, std::size_t, bool> members[] = {
       {"cells_u", rates.cells_u.size(), false},
       {"cells_v", rates.cells_v.size(), false},
@@ -68,7 +51,7 @@ Path blamed_rates(const RateSpans& rates, std::size_t patches, bool without_diag
 }
 
 /// The rates that a call with a topology is about, which may be that of another model.
-Path blamed_rates(const RateSpans& rates, std::size_t patches, const Topology& topology) {
+Path blamed_rates(const CertifiedRates& rates, std::size_t patches, const Topology& topology) {
   return topology.counts().patches == patches ? blamed_rates(rates, patches, false) : kTopology;
 }
 
@@ -81,29 +64,22 @@ Path blamed_limit(const RateOptions& options, std::size_t patch) {
                                     : kOptions / "normal_degrees";
 }
 
-/// Refuses the call as C++ did. blamed(status) names what bad_tolerance and bad_rates are about.
-/// Only options name an instruction set.
-template <typename S, typename Blamed>
-void require_rates(const Report& report, std::span<const ControlNets<S>> nets, Blamed blamed) {
-  if (report) {
-    return;
-  }
-  const auto blamed_here = [&]() -> Path {
-    switch (report.status.code()) {
-    case Status::bad_tolerance:
-    case Status::bad_rates:
-      return blamed(report.status);
-    case Status::snap_too_large:
-    case Status::bad_topology:
-      return kTopology;
-    case Status::unsupported_isa:
-      return kOptions / "isa";
-    default:
-      return blamed_nets(report.status, nets_with_patch(nets, report.item));
-    }
-  };
-  throw Fault{code_of(report.status), blamed_here(), report.item};
+/// Refuses the call as C++ did. tolerances(), rates(patches): what bad_tolerance and bad_rates are
+/// about. Only options name an instruction set.
+template <typename S, typename Tolerances, typename Rates>
+void require_rates(const Report& report, std::span<const ControlNets<S>> nets,
+                   Tolerances tolerances, Rates rates) {
+  require_item(report, [&](Status status) {
+    return blamed(status,
+                  {{{Status::bad_tolerance}, tolerances()},
+                   {{Status::bad_rates}, rates(detail::patches_of(nets))},
+                   {{Status::snap_too_large, Status::bad_topology}, kTopology},
+                   {{Status::unsupported_isa}, kOptions / "isa"}},
+                  blamed_nets(status, nets, report.item));
+  });
 }
+
+Path blamed_errors() { return kErrors; }
 
 } // namespace
 } // namespace simdbezier::c_api
@@ -116,24 +92,20 @@ simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t le
                                           const simdbezier_rate_options* options,
                                           const simdbezier_rates* rates) {
   return answer(__func__, [&] {
-    const RateSpans out = rates_of(rates);
-    const RateOptions how = rate_options_of(options);
-    const simdbezier_rate_options known = read(options, kOptions);
+    const CertifiedRates out = rates_of(rates);
+    const auto known = read(options, kOptions);
+    const RateOptions how = rate_options_of(known);
     const RunOptions run{known.threads, isa_of(known.isa, kOptions / "isa")};
     const Topology& joined = object_of(topology, kTopology);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const Report report = choose_rates(views, joined, how, certified(out), run);
-      require_rates(report, views, [&](Status status) {
-        const std::size_t patches = detail::patches_of(views);
-        if (status == Status::bad_tolerance) {
-          return blamed_limit(how, report.item);
-        }
-        if (!is_one_each(how.errors, patches)) {
-          return kOptions / "errors";
-        }
-        return is_one_each(how.tolerances, patches) ? blamed_rates(out, patches, joined)
-                                                    : kOptions / "tolerances";
-      });
+    with_net_array(nets, length, [&](const auto& views) {
+      const Report report = choose_rates(views, joined, how, out, run);
+      require_rates(
+          report, views, [&] { return blamed_limit(how, report.item); },
+          [&](std::size_t patches) {
+            return !is_one_each(how.errors, patches)       ? kOptions / "errors"
+                   : !is_one_each(how.tolerances, patches) ? kOptions / "tolerances"
+                                                           : blamed_rates(out, patches, joined);
+          });
     });
   });
 }
@@ -143,17 +115,15 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
                                            const double* errors, size_t errors_length,
                                            const simdbezier_rates* rates, int32_t threads) {
   return answer(__func__, [&] {
-    const RateSpans out = rates_of(rates);
-    const std::span<const double> known = span_of(errors, errors_length, kErrors);
+    const CertifiedRates out = rates_of(rates);
+    const std::span<const double> known = SIMDBEZIER_ARRAY(errors);
     const Topology& joined = object_of(topology, kTopology);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const Report report =
-          certify_rates(views, joined, known, certified(out), {.threads = threads});
-      require_rates(report, views, [&](Status status) {
-        const std::size_t patches = detail::patches_of(views);
-        const bool of_errors = status == Status::bad_tolerance || !is_one_each(known, patches);
-        return of_errors ? kErrors : blamed_rates(out, patches, joined);
-      });
+    with_net_array(nets, length, [&](const auto& views) {
+      require_rates(certify_rates(views, joined, known, out, {.threads = threads}), views,
+                    blamed_errors, [&](std::size_t patches) {
+                      return is_one_each(known, patches) ? blamed_rates(out, patches, joined)
+                                                         : kErrors;
+                    });
     });
   });
 }
@@ -163,18 +133,15 @@ simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t l
                                            size_t errors_length, double* deviation,
                                            size_t deviation_length, int32_t threads) {
   return answer(__func__, [&] {
-    const std::span<const double> known = span_of(errors, errors_length, kErrors);
-    const std::span<double> out = span_of(deviation, deviation_length, {"deviation"});
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const Report report =
-          certify_grids(views, cells_u, cells_v, known, out, {.threads = threads});
-      require_rates(report, views, [&](Status status) -> Path {
-        const std::size_t patches = detail::patches_of(views);
-        if (status == Status::bad_tolerance || !is_one_each(known, patches)) {
-          return kErrors;
-        }
-        return {out.size() == patches ? "cells_u or cells_v" : "deviation"};
-      });
+    const std::span<const double> known = SIMDBEZIER_ARRAY(errors);
+    const std::span<double> out = SIMDBEZIER_ARRAY(deviation);
+    with_net_array(nets, length, [&](const auto& views) {
+      require_rates(certify_grids(views, cells_u, cells_v, known, out, {.threads = threads}), views,
+                    blamed_errors, [&](std::size_t patches) -> Path {
+                      return !is_one_each(known, patches) ? kErrors
+                             : out.size() == patches      ? Path{"cells_u or cells_v"}
+                                                          : Path{"deviation"};
+                    });
     });
   });
 }
@@ -184,17 +151,13 @@ simdbezier_status simdbezier_pixel_tolerances(const simdbezier_nets* nets, size_
                                               double* tolerances, size_t tolerances_length) {
   return answer(__func__, [&] {
     const Camera seen_by = camera_of(camera, {"camera"});
-    const std::span<double> out = span_of(tolerances, tolerances_length, {"tolerances"});
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      require_ok(pixel_tolerances(views, seen_by, pixels, out), [&](Status status) -> Path {
-        switch (status.code()) {
-        case Status::bad_tolerance:
-          return {"pixels or camera"};
-        case Status::output_too_small:
-          return {"tolerances"};
-        default:
-          return blamed_nets(status, {"nets"});
-        }
+    const std::span<double> out = SIMDBEZIER_ARRAY(tolerances);
+    with_net_array(nets, length, [&](const auto& views) {
+      require_ok(pixel_tolerances(views, seen_by, pixels, out), [&](Status status) {
+        return blamed(status,
+                      {{{Status::bad_tolerance}, {"pixels or camera"}},
+                       {{Status::output_too_small}, {"tolerances"}}},
+                      blamed_nets(status, {"nets"}));
       });
     });
   });
@@ -206,9 +169,8 @@ simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topolo
                                                size_t* raised) {
   return answer(__func__, [&] {
     std::size_t changed = 0;
-    require_ok(separate_vertices(object_of(topology, kTopology),
-                                 span_of(cells_u, cells_u_length, {"cells_u"}),
-                                 span_of(cells_v, cells_v_length, {"cells_v"}), changed),
+    require_ok(separate_vertices(object_of(topology, kTopology), SIMDBEZIER_ARRAY(cells_u),
+                                 SIMDBEZIER_ARRAY(cells_v), changed),
                [](Status) { return Path{"cells_u or cells_v"}; });
     if (raised != nullptr) {
       *raised = changed;
@@ -222,16 +184,18 @@ simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
                                           simdbezier_mesh_layout** layout) {
   return answer(__func__, [&] {
     require_place(layout, {"layout"});
-    const RateSpans of = rates_of(rates);
+    const CertifiedRates of = rates_of(rates);
     const Topology& joined = object_of(topology, kTopology);
     const Options how = call_options_of(options);
     MeshLayout made;
     require_ok(lay_out_mesh(joined, {of.cells_u, of.cells_v, of.diagonals}, made, how),
                [&](Status status) {
-                 if (status == Status::bad_rates) {
-                   return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
-                 }
-                 return status == Status::out_of_memory ? Path{} : kRates;
+                 const std::size_t patches = joined.counts().patches;
+                 return blamed(
+                     status,
+                     {{{Status::bad_rates}, blamed_rates(of, patches, of.diagonals.empty())},
+                      {{Status::out_of_memory}, {}}},
+                     kRates);
                });
     give(layout, std::move(made));
   });

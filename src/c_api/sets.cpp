@@ -16,10 +16,10 @@ static_assert(int{SIMDBEZIER_MOST_COMPONENTS} == kMostComponents);
 
 /// What packing was refused for: an option where no point is at fault.
 template <typename PathOf>
-void require_packed(const Report& report, PathOf blamed) {
+void require_packed(const Report& report, PathOf path_of) {
   require_ok(report, [&](Status status) {
     const bool option = status == Status::non_finite_input && report.point < 0;
-    return option ? kOptions / "relative_to" : blamed(status);
+    return option ? kOptions / "relative_to" : path_of(status);
   });
 }
 
@@ -35,19 +35,15 @@ Isa resolved(simdbezier_isa isa) {
   return chosen;
 }
 
-template <std::size_t N>
-void copy(const double (&from)[N], double (&to)[N]) {
-  std::copy_n(from, N, to);
-}
 void copy(const ErrorBounds& from, simdbezier_error_bounds_of_patch& to) {
-  copy(from.position, to.position);
-  copy(from.du, to.du);
-  copy(from.dv, to.dv);
+  std::ranges::copy(from.position, to.position);
+  std::ranges::copy(from.du, to.du);
+  std::ranges::copy(from.dv, to.dv);
 }
 void copy(const CurveErrorBounds& from, simdbezier_error_bounds_of_curve& to) {
-  copy(from.position, to.position);
-  copy(from.d1, to.d1);
-  copy(from.d2, to.d2);
+  std::ranges::copy(from.position, to.position);
+  std::ranges::copy(from.d1, to.d1);
+  std::ranges::copy(from.d2, to.d2);
 }
 
 /// error_bounds() of one patch or curve; path: the argument that says which.
@@ -103,9 +99,8 @@ simdbezier_status simdbezier_pack(const simdbezier_nets* nets, size_t length,
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         PatchSet<T> packed;
         const Report report = pack(views, packed, how);
-        require_packed(report, [&](Status status) {
-          return blamed_nets(status, nets_with_patch(views, report.item));
-        });
+        require_packed(report,
+                       [&](Status status) { return blamed_nets(status, views, report.item); });
         give(set, std::move(packed));
       });
     });
@@ -122,11 +117,10 @@ simdbezier_status simdbezier_pack_curves(const simdbezier_control_curves* curves
     require_place(set, kSet);
     const PackOptions how = pack_options_of(options);
     const Path path{"curves"};
-    const simdbezier_control_curves given = read(curves, path);
-    with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
+    with_view(read(curves, path), [&](const auto& view) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         CurveSet<T> packed;
-        require_packed(pack(curves_of<S>(given, path), packed, how),
+        require_packed(pack(view, packed, how),
                        [&](Status status) { return blamed_curves(status, path); });
         give(set, std::move(packed));
       });
@@ -136,20 +130,26 @@ simdbezier_status simdbezier_pack_curves(const simdbezier_control_curves* curves
 
 void simdbezier_curve_set_free(simdbezier_curve_set* set) { delete set; }
 
-size_t simdbezier_patch_set_size(const simdbezier_patch_set* set) {
-  return ask(set, [](const auto& patches) { return patches.size(); });
-}
+// Numbers that sets are asked for; 0 of null.
+#define SIMDBEZIER_ASK(result, handle, question)                                                   \
+  result simdbezier_##handle##_##question(const simdbezier_##handle* set) {                        \
+    return ask(set, [](const auto& of) { return static_cast<result>(of.question()); });            \
+  }
+SIMDBEZIER_ASK(size_t, patch_set, size)
+SIMDBEZIER_ASK(int32_t, patch_set, components)
+SIMDBEZIER_ASK(int32_t, patch_set, has_local_origins)
+SIMDBEZIER_ASK(size_t, curve_set, size)
+SIMDBEZIER_ASK(int32_t, curve_set, degree)
+SIMDBEZIER_ASK(int32_t, curve_set, components)
+SIMDBEZIER_ASK(int32_t, curve_set, rational)
+SIMDBEZIER_ASK(int32_t, curve_set, has_local_origins)
 
 simdbezier_scalar simdbezier_patch_set_scalar(const simdbezier_patch_set* set) {
   return ask(set, []<typename T>(const PatchSet<T>&) { return kScalar<T>; });
 }
 
-int32_t simdbezier_patch_set_components(const simdbezier_patch_set* set) {
-  return ask(set, [](const auto& patches) { return patches.components(); });
-}
-
-int32_t simdbezier_patch_set_has_local_origins(const simdbezier_patch_set* set) {
-  return ask(set, [](const auto& patches) { return patches.has_local_origins() ? 1 : 0; });
+simdbezier_scalar simdbezier_curve_set_scalar(const simdbezier_curve_set* set) {
+  return ask(set, []<typename T>(const CurveSet<T>&) { return kScalar<T>; });
 }
 
 simdbezier_status simdbezier_patch_set_shape(const simdbezier_patch_set* set, size_t patch,
@@ -162,30 +162,6 @@ simdbezier_status simdbezier_patch_set_shape(const simdbezier_patch_set* set, si
       write(shape, {0, of.degree_u, of.degree_v, of.components, of.rational ? 1 : 0});
     });
   });
-}
-
-size_t simdbezier_curve_set_size(const simdbezier_curve_set* set) {
-  return ask(set, [](const auto& curves) { return curves.size(); });
-}
-
-simdbezier_scalar simdbezier_curve_set_scalar(const simdbezier_curve_set* set) {
-  return ask(set, []<typename T>(const CurveSet<T>&) { return kScalar<T>; });
-}
-
-int32_t simdbezier_curve_set_degree(const simdbezier_curve_set* set) {
-  return ask(set, [](const auto& curves) { return curves.degree(); });
-}
-
-int32_t simdbezier_curve_set_components(const simdbezier_curve_set* set) {
-  return ask(set, [](const auto& curves) { return curves.components(); });
-}
-
-int32_t simdbezier_curve_set_rational(const simdbezier_curve_set* set) {
-  return ask(set, [](const auto& curves) { return curves.rational() ? 1 : 0; });
-}
-
-int32_t simdbezier_curve_set_has_local_origins(const simdbezier_curve_set* set) {
-  return ask(set, [](const auto& curves) { return curves.has_local_origins() ? 1 : 0; });
 }
 
 simdbezier_status simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch,

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <climits>
-#include <utility>
-#include <vector>
 
 #include <simdbezier/splines.hpp>
 
@@ -15,7 +13,6 @@ namespace simdbezier::c_api {
 
 inline constexpr Path kSurface{"surface"};
 inline constexpr Path kCurve{"curve"};
-inline constexpr Path kSplineOut{"out"};
 
 /// What members of a spline are called, in u and in v.
 struct SplineNames {
@@ -32,126 +29,66 @@ inline constexpr SplineNames kCurveNames{
     {"knots", "knots"}, {"degree", "degree"}, {"count", "count"}, {"begin or end", "begin or end"}};
 
 /// The caller's knots; without any they are uniform.
-inline std::span<const double> knots_at(const double* first, std::size_t length, const Path& path) {
-  return span_of(numbers_at<double>(first, path), length, path);
+template <typename Struct>
+std::span<const double> knots_of(const Given<Struct>& given, const double* first,
+                                 std::size_t length, const char* name) {
+  return span_of(numbers_at<double>(first, given.path / name), length, given.path / name);
 }
 
-/// The address of the first value of a spline's points, and their memory. S = void: of points that
-/// are not read.
-template <typename S, typename Struct>
-std::pair<const S*, std::span<const S>> spline_points(const Struct& given, const Path& path) {
-  simdbezier_nets like{};
-  like.points = given.points;
-  like.length = given.length;
-  like.first = given.first;
-  like.count = 1;
-  like.scalar = given.scalar;
-  return first_value<S>(like, path);
-}
-
-/// A surface as its knots alone are asked for.
-inline SplineSurface<double> axes_of(const simdbezier_spline_surface& given, const Path& path) {
-  SplineSurface<double> surface;
+/// A spline without its points, of which calls that are about knots read none.
+template <typename S = double>
+SplineSurface<S> axes_of(const Given<simdbezier_spline_surface>& given) {
+  SplineSurface<S> surface;
   surface.rows = given.rows;
   surface.columns = given.columns;
   surface.periodic_u = given.periodic_u != 0;
   surface.periodic_v = given.periodic_v != 0;
   surface.degree_u = given.degree_u;
   surface.degree_v = given.degree_v;
-  surface.knots_u = knots_at(given.knots_u, given.knots_u_length, path / "knots_u");
-  surface.knots_v = knots_at(given.knots_v, given.knots_v_length, path / "knots_v");
+  surface.knots_u = knots_of(given, given.knots_u, given.knots_u_length, "knots_u");
+  surface.knots_v = knots_of(given, given.knots_v, given.knots_v_length, "knots_v");
   surface.u_range = {given.u_begin, given.u_end};
   surface.v_range = {given.v_begin, given.v_end};
   surface.knot_tolerance = given.knot_tolerance;
   return surface;
 }
-inline SplineCurve<double> axes_of(const simdbezier_spline_curve& given, const Path& path) {
-  SplineCurve<double> curve;
+template <typename S = double>
+SplineCurve<S> axes_of(const Given<simdbezier_spline_curve>& given) {
+  SplineCurve<S> curve;
   curve.count = given.count;
   curve.periodic = given.periodic != 0;
   curve.degree = given.degree;
-  curve.knots = knots_at(given.knots, given.knots_length, path / "knots");
+  curve.knots = knots_of(given, given.knots, given.knots_length, "knots");
   curve.range = {given.begin, given.end};
   curve.knot_tolerance = given.knot_tolerance;
   return curve;
 }
 
 template <typename S>
-SplineSurface<S> spline_of(const simdbezier_spline_surface& given, const Path& path) {
-  const auto [points, memory] = spline_points<S>(given, path);
-  const SplineSurface<double> axes = axes_of(given, path);
-  return {points,
-          axes.rows,
-          axes.columns,
-          given.row_stride,
-          given.point_stride,
-          given.component_stride,
-          given.components,
-          weights_of(given.weights, path),
-          axes.periodic_u,
-          axes.periodic_v,
-          axes.degree_u,
-          axes.degree_v,
-          axes.knots_u,
-          axes.knots_v,
-          axes.u_range,
-          axes.v_range,
-          axes.knot_tolerance,
-          memory};
+SplineSurface<S> view_of(const Given<simdbezier_spline_surface>& given) {
+  auto surface = axes_of<S>(given);
+  set_points<S>(surface, given, 1);
+  surface.row_stride = given.row_stride;
+  return surface;
 }
 template <typename S>
-SplineCurve<S> spline_of(const simdbezier_spline_curve& given, const Path& path) {
-  const auto [points, memory] = spline_points<S>(given, path);
-  const SplineCurve<double> axes = axes_of(given, path);
-  return {points,
-          axes.count,
-          given.point_stride,
-          given.component_stride,
-          given.components,
-          weights_of(given.weights, path),
-          axes.periodic,
-          axes.degree,
-          axes.knots,
-          axes.range,
-          axes.knot_tolerance,
-          memory};
-}
-
-/// body(std::span<const SplineSurface<S>>) with the surfaces of an array, S being their type.
-template <typename Body>
-auto with_surface_array(const simdbezier_spline_surface* surfaces, std::size_t length, Body body) {
-  const char* const name = "surfaces";
-  const simdbezier_scalar scalar =
-      length == 0 ? SIMDBEZIER_F32 : read_element(surfaces, 0, name).scalar;
-  return with_scalar(scalar, Path{name, 0} / "scalar", [&]<typename S>() {
-    std::vector<SplineSurface<S>> views;
-    reserve(views, length);
-    for (std::size_t k = 0; k < length; ++k) {
-      views.push_back(spline_of<S>(read_element(surfaces, k, name), {name, k}));
-    }
-    return body(std::span<const SplineSurface<S>>(views));
-  });
+SplineCurve<S> view_of(const Given<simdbezier_spline_curve>& given) {
+  auto curve = axes_of<S>(given);
+  set_points<S>(curve, given, 1);
+  return curve;
 }
 
 /// The member of a spline that a status is about, in one direction.
 inline Path blamed_spline(Status status, int component, const Path& spline,
                           const SplineNames& names) {
   const int direction = component == 1 ? 1 : 0;
-  switch (status.code()) {
-  case Status::bad_knots:
-    return spline / names.knots[direction];
-  case Status::bad_degree:
-    return spline / names.degree[direction];
-  case Status::bad_grid:
-  case Status::size_overflow:
-    return spline / names.points[direction];
-  case Status::bad_range:
-    return spline / names.range[direction];
-  case Status::bad_tolerance:
-    return spline / "knot_tolerance";
-  default:
-    return blamed_nets(status, spline);
-  }
+  return blamed(status,
+                {{{Status::bad_knots}, spline / names.knots[direction]},
+                 {{Status::bad_degree}, spline / names.degree[direction]},
+                 {{Status::bad_grid, Status::size_overflow}, spline / names.points[direction]},
+                 {{Status::bad_range}, spline / names.range[direction]},
+                 {{Status::bad_tolerance}, spline / "knot_tolerance"}},
+                blamed_nets(status, spline));
 }
 
 /// Refuses a call for a fault of a report; `numbered` is whether its point is known.

@@ -3,8 +3,7 @@
 
 #include <simdbezier/splines.hpp>
 
-#include "src/c_api/evaluate_set.hpp"
-#include "src/c_api/outputs.hpp"
+#include "src/c_api/samples.hpp"
 #include "src/c_api/spline_views.hpp"
 
 namespace simdbezier::c_api {
@@ -18,20 +17,15 @@ std::span<PatchInterval> intervals_at(simdbezier_patch_interval* first, std::siz
 /// behind the first may differ from it.
 Path blamed_result(const Report& report, const Path& out) {
   const Path surface{"surfaces", report.item};
-  switch (report.status.code()) {
-  case Status::unequal_lengths:
-    return {"intervals_length"};
-  case Status::bad_degree:
-    return report.item > 0 ? surface / "degree_u or degree_v" : blamed_nets(report.status, out);
-  case Status::bad_components:
-    return (report.item > 0 ? surface : out) / "components or weights";
-  case Status::non_finite_input:
-    return kOptions / "relative_to";
-  case Status::coefficient_overflow:
-    return surface / "points";
-  default:
-    return blamed_nets(report.status, out);
-  }
+  const bool first = report.item == 0;
+  return blamed(report.status,
+                {{{Status::unequal_lengths}, {"intervals_length"}},
+                 {{Status::bad_degree},
+                  first ? blamed_nets(report.status, out) : surface / "degree_u or degree_v"},
+                 {{Status::bad_components}, (first ? out : surface) / "components or weights"},
+                 {{Status::non_finite_input}, kOptions / "relative_to"},
+                 {{Status::coefficient_overflow}, surface / "points"}},
+                blamed_nets(report.status, out));
 }
 
 /// locate() where only knots are looked at.
@@ -40,12 +34,17 @@ Report look_at_knots(const SplineSurface<double>& surface) {
 }
 Report look_at_knots(const SplineCurve<double>& curve) { return locate(curve, 0, nullptr, {}); }
 
-/// Refuses a call for a parameter that is at fault, which is called names[direction].
-void require_parameters(const Report& report, const char* const (&names)[2]) {
-  const bool about_parameters =
-      report.status == Status::bad_range || report.status == Status::non_finite_input;
-  if (about_parameters) {
-    refuse(report, {names[report.component == 1 ? 1 : 0]}, true);
+/// Refuses a call about places on a spline: for its knots, else for a parameter, which is called
+/// parameters[direction].
+template <typename Spline>
+void require_places(const Report& report, const Spline& axes, const Path& path,
+                    const SplineNames& names, const char* const (&parameters)[2]) {
+  if (report) {
+    return;
+  }
+  require_spline(look_at_knots(axes), path, names);
+  if (report.status == Status::bad_range || report.status == Status::non_finite_input) {
+    refuse(report, {parameters[report.component == 1 ? 1 : 0]}, true);
   }
 }
 
@@ -58,7 +57,7 @@ std::span<const double> spline_parameters(const double* first, std::size_t lengt
 SplinePlaces places_of(const simdbezier_spline_places* given, std::size_t count, bool is_curve) {
   const Path path{"places"};
   require(given != nullptr, SIMDBEZIER_NULL_OUTPUT, path);
-  const simdbezier_spline_places known = read(given, path);
+  const auto known = read(given, path);
   require(known.length >= count, SIMDBEZIER_OUTPUT_TOO_SMALL, path / "length");
   SplinePlaces places;
   places.patch = numbers_at<std::uint32_t>(known.patch, path / "patch");
@@ -82,27 +81,20 @@ simdbezier_status evaluate_spline(const char* function, const simdbezier_patch_s
                                   const simdbezier_outputs* out, const simdbezier_options* options,
                                   Count samples, Call call) noexcept {
   return answer(function, [&] {
-    const SplineSurface<double> axes = axes_of(read(surface, kSurface), kSurface);
+    const SplineSurface<double> axes = axes_of(read(surface, kSurface));
     const auto us = spline_parameters(u, u_length, "u");
     const auto vs = spline_parameters(v, v_length, "v");
     with_object(set, {"set"}, [&]<typename T>(const PatchSet<T>& patches) {
       const Outputs<T> to = outputs_of<T>(out);
       const Options how = call_options_of(options);
       const Report report = call(patches, axes, us, vs, to, how);
-      if (report) {
-        return;
-      }
-      require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
-      require_parameters(report, {"u", "v"});
-      require_ok(report.status, [&](Status status) -> Path {
-        if (status == Status::unequal_lengths) {
-          return {"v_length"};
-        }
-        const Path blamed = blamed_in_call(status, {"first_patch"});
-        return blamed.is_of(kSplineOut) && blamed.member == nullptr
-                   ? blamed_output(to, status, samples(us.size(), vs.size()),
-                                   std::int64_t{patches.components()} - to.first_component)
-                   : blamed;
+      require_places(report, axes, kSurface, kSurfaceNames, {"u", "v"});
+      require_ok(report.status, [&](Status status) {
+        return status == Status::unequal_lengths
+                   ? Path{"v_length"}
+                   : blamed_in_evaluation<simdbezier_outputs>(status, {"first_patch"}, to,
+                                                              samples(us.size(), vs.size()),
+                                                              patches.components());
       });
     });
   });
@@ -117,7 +109,7 @@ using namespace simdbezier::c_api;
 simdbezier_status simdbezier_spline_span_count(const simdbezier_spline_surface* surface,
                                                size_t* spans_u, size_t* spans_v) {
   return answer(__func__, [&] {
-    const SplineSurface<double> axes = axes_of(read(surface, kSurface), kSurface);
+    const SplineSurface<double> axes = axes_of(read(surface, kSurface));
     require(spans_u != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans_u"});
     require(spans_v != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans_v"});
     require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
@@ -130,7 +122,7 @@ simdbezier_status simdbezier_spline_span_count(const simdbezier_spline_surface* 
 simdbezier_status simdbezier_spline_curve_span_count(const simdbezier_spline_curve* curve,
                                                      size_t* spans) {
   return answer(__func__, [&] {
-    const SplineCurve<double> axis = axes_of(read(curve, kCurve), kCurve);
+    const SplineCurve<double> axis = axes_of(read(curve, kCurve));
     require(spans != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans"});
     require_spline(look_at_knots(axis), kCurve, kCurveNames);
     *spans = span_count(axis).u;
@@ -143,17 +135,18 @@ simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_surface* s
                                               size_t intervals_length,
                                               const simdbezier_options* options) {
   return answer(__func__, [&] {
-    require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kSplineOut);
+    require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
     const std::span<PatchInterval> places = intervals_at(intervals, intervals_length);
     const Options how = call_options_of(options);
-    with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
-      const MutableNets<S> nets = nets_of<S>(read(out, kSplineOut), kSplineOut);
-      const Report report = to_bezier(views, nets, places, how);
-      if (!report) {
-        require_surfaces(views);
-        refuse(report, blamed_result(report, kSplineOut), false);
-      }
-    });
+    with_array(surfaces, length, "surfaces",
+               [&]<typename S>(std::span<const SplineSurface<S>> views) {
+                 const MutableNets<S> nets = view_of<S>(read(out, kOut));
+                 const Report report = to_bezier(views, nets, places, how);
+                 if (!report) {
+                   require_surfaces(views);
+                   refuse(report, blamed_result(report, kOut), false);
+                 }
+               });
   });
 }
 
@@ -163,20 +156,18 @@ simdbezier_status simdbezier_spline_curve_to_bezier(const simdbezier_spline_curv
                                                     size_t intervals_length,
                                                     const simdbezier_options* options) {
   return answer(__func__, [&] {
-    const simdbezier_spline_curve given = read(curve, kCurve);
-    const auto to = span_of(intervals, intervals_length, {"intervals"});
+    const auto given = read(curve, kCurve);
+    const auto to = SIMDBEZIER_ARRAY(intervals);
     const Options how = call_options_of(options);
     with_scalar(given.scalar, kCurve / "scalar", [&]<typename S>() {
-      const SplineCurve<S> view = spline_of<S>(given, kCurve);
-      const Values<S> out = values_of<S>(points, {"points"});
-      const Report report = to_bezier(view, out, in_place<Interval>(to), how);
+      const auto view = view_of<S>(given);
+      const Report report =
+          to_bezier(view, output_of<S>(points, {"points"}), in_place<Interval>(to), how);
       if (!report) {
         require_spline(detail::SplineList<S>().prepare(view), kCurve, kCurveNames);
         const Path path{"points"};
-        const bool of_points = report.status == Status::null_output ||
-                               report.status == Status::output_too_small ||
-                               report.status == Status::overlapping_outputs;
-        refuse(report, of_points ? path : blamed_result(report, path), false);
+        refuse(report, blamed(report.status, {{kOutputFaults, path}}, blamed_result(report, path)),
+               false);
       }
     });
   });
@@ -192,17 +183,18 @@ simdbezier_status simdbezier_spline_pack(const simdbezier_spline_surface* surfac
     require_place(set, {"set"});
     const std::span<PatchInterval> places = intervals_at(intervals, intervals_length);
     const PackOptions how = pack_options_of(options);
-    with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
-      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
-        PatchSet<T> packed;
-        const Report report = pack(views, packed, places, how);
-        if (!report) {
-          require_surfaces(views);
-          refuse(report, blamed_result(report, {"surfaces", report.item}), false);
-        }
-        give(set, std::move(packed));
-      });
-    });
+    with_array(surfaces, length, "surfaces",
+               [&]<typename S>(std::span<const SplineSurface<S>> views) {
+                 with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+                   PatchSet<T> packed;
+                   const Report report = pack(views, packed, places, how);
+                   if (!report) {
+                     require_surfaces(views);
+                     refuse(report, blamed_result(report, {"surfaces", report.item}), false);
+                   }
+                   give(set, std::move(packed));
+                 });
+               });
   });
 }
 
@@ -211,17 +203,14 @@ simdbezier_status simdbezier_spline_locate(const simdbezier_spline_surface* surf
                                            size_t v_length,
                                            const simdbezier_spline_places* places) {
   return answer(__func__, [&] {
-    const SplineSurface<double> axes = axes_of(read(surface, kSurface), kSurface);
+    const SplineSurface<double> axes = axes_of(read(surface, kSurface));
     const auto us = spline_parameters(u, u_length, "u");
     const auto vs = spline_parameters(v, v_length, "v");
     require(us.size() == vs.size(), SIMDBEZIER_UNEQUAL_LENGTHS, {"v_length"});
     const Report report =
         locate(axes, us.size(), us.data(), vs.data(), places_of(places, us.size(), false));
-    if (!report) {
-      require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
-      require_parameters(report, {"u", "v"});
-      refuse(report, {}, false);
-    }
+    require_places(report, axes, kSurface, kSurfaceNames, {"u", "v"});
+    require_ok(report.status, [](Status) { return Path{}; });
   });
 }
 
@@ -229,14 +218,11 @@ simdbezier_status simdbezier_spline_curve_locate(const simdbezier_spline_curve* 
                                                  const double* t, size_t t_length,
                                                  const simdbezier_spline_places* places) {
   return answer(__func__, [&] {
-    const SplineCurve<double> axis = axes_of(read(curve, kCurve), kCurve);
+    const SplineCurve<double> axis = axes_of(read(curve, kCurve));
     const auto ts = spline_parameters(t, t_length, "t");
     const Report report = locate(axis, ts.size(), ts.data(), places_of(places, ts.size(), true));
-    if (!report) {
-      require_spline(look_at_knots(axis), kCurve, kCurveNames);
-      require_parameters(report, {"t", "t"});
-      refuse(report, {}, false);
-    }
+    require_places(report, axis, kCurve, kCurveNames, {"t", "t"});
+    require_ok(report.status, [](Status) { return Path{}; });
   });
 }
 

@@ -25,16 +25,22 @@ bool is_size(std::size_t size) noexcept {
   return size >= kFirstSize<S> && size <= kMostSize && size % alignof(S) == 0;
 }
 
+/// A struct that was read, and what the caller calls it.
+template <typename S>
+struct Given : S {
+  Path path;
+};
+
 /// The caller's struct in the size that is known here. Members that the caller did not know become
 /// zero; members that are not known here have to be zero.
 template <typename S>
-S read(const S* given, const Path& path) {
+Given<S> read(const S* given, const Path& path) {
   static_assert(std::is_trivially_copyable_v<S>);
   require(given != nullptr, SIMDBEZIER_NULL_INPUT, path);
   const std::size_t size = given->struct_size;
   require(is_size<S>(size), SIMDBEZIER_BAD_STRUCT_SIZE, path / "struct_size");
-  S known{};
-  std::memcpy(&known, given, std::min(size, sizeof(S)));
+  Given<S> known{{}, path};
+  std::memcpy(static_cast<S*>(&known), given, std::min(size, sizeof(S)));
   if (size > sizeof(S)) {
     const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
     require(std::all_of(bytes + sizeof(S), bytes + size, [](unsigned char b) { return b == 0; }),
@@ -45,13 +51,13 @@ S read(const S* given, const Path& path) {
 
 /// Reads a struct of options, for which null stands for zeros.
 template <typename S>
-S read_options(const S* given, const Path& path) {
-  return given == nullptr ? S{} : read(given, path);
+Given<S> read_options(const S* given, const Path& path) {
+  return given == nullptr ? Given<S>{{}, path} : read(given, path);
 }
 
 /// Element k of an array of structs, all of which have the size of the first.
 template <typename S>
-S read_element(const S* array, std::size_t k, const char* name) {
+Given<S> read_element(const S* array, std::size_t k, const char* name) {
   const Path path{name, k};
   require(array != nullptr, SIMDBEZIER_NULL_INPUT, {name});
   const std::size_t size = array->struct_size;
@@ -122,5 +128,10 @@ std::span<V> span_of(V* first, std::size_t length, const Path& path) {
           std::is_const_v<V> ? SIMDBEZIER_NULL_INPUT : SIMDBEZIER_NULL_OUTPUT, path);
   return first == nullptr ? std::span<V>() : std::span<V>(first, length);
 }
+
+// Arrays of a struct that was read are pairs of members called x and x_length; arrays that are
+// arguments are pairs of these.
+#define SIMDBEZIER_SPAN(given, x) span_of((given).x, (given).x##_length, (given).path / #x)
+#define SIMDBEZIER_ARRAY(x) span_of(x, x##_length, {#x})
 
 } // namespace simdbezier::c_api

@@ -1,6 +1,5 @@
 // Vertices of meshes of simdbezier.h.
 #include <algorithm>
-#include <tuple>
 
 #include <simdbezier/evaluate_mesh.hpp>
 
@@ -19,30 +18,33 @@ constexpr VertexFormat kLastFormat = VertexFormat::octahedral8;
 static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == static_cast<int>(VertexFormat::octahedral8));
 static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == static_cast<int>(kLastFormat));
 
+/// visit(member in C, member in C++, name, components) for every vector output of a vertex.
+template <typename Out, typename Visit>
+void for_outputs(simdbezier_mesh_outputs& known, Out& out, Visit visit) {
+  visit(known.position, out.position, "position", 3);
+  visit(known.normal, out.normal, "normal", 3);
+  visit(known.parameters, out.parameters, "parameters", 2);
+}
+
 template <typename T>
 MeshOutputs<T> outputs_of(const simdbezier_mesh_outputs* given) {
-  const simdbezier_mesh_outputs known = read(given, kOut);
-  MeshOutputs<T> out{vectors_of<T>(known.position, kOut / "position"),
-                     vectors_of<T>(known.normal, kOut / "normal"),
-                     vectors_of<T>(known.parameters, kOut / "parameters"),
-                     {}};
+  auto known = read(given, kOut);
+  MeshOutputs<T> out;
+  for_outputs(known, out, [](const auto& from, auto& to, const char* name, int /*components*/) {
+    to = output_of<T>(from, kOut / name);
+  });
   if (known.patch != nullptr || known.patch_length != 0) {
-    out.patch = span_of(known.patch, known.patch_length, kOut / "patch");
+    out.patch = SIMDBEZIER_SPAN(known, patch);
   }
   return out;
 }
 
 /// unequal_lengths is about the number of patches in the set, not about the range asked for.
 Path blamed_in_mesh(Status status) {
-  switch (status.code()) {
-  case Status::unequal_lengths:
-  case Status::bad_components:
-    return kSet;
-  case Status::bad_patch_range:
-    return {"first_patch or patch_count"};
-  default:
-    return blamed_in_call(status, kLayout);
-  }
+  return blamed(status,
+                {{{Status::unequal_lengths, Status::bad_components}, kSet},
+                 {{Status::bad_patch_range}, {"first_patch or patch_count"}}},
+                blamed_in_call(status, kLayout));
 }
 
 /// How many vertices a call for some patches writes.
@@ -55,16 +57,17 @@ std::size_t vertices_of(const MeshLayout& layout, std::size_t patches, SetRange 
 /// One of the outputs, where it alone is at fault.
 template <typename T>
 Path blamed_output(const MeshOutputs<T>& out, Status status, std::size_t vertices) {
-  const std::tuple<const char*, const Vectors<T>&, std::int64_t> members[] = {
-      {"position", out.position, 3}, {"normal", out.normal, 3}, {"parameters", out.parameters, 2}};
-  for (const auto& [name, vectors, components] : members) {
-    if (is_at_fault(vectors, status, vertices, components)) {
-      return blamed_plane(status, kOut / name);
+  Path blamed;
+  simdbezier_mesh_outputs unread{};
+  for_outputs(unread, out, [&](const auto&, const auto& output, const char* name, int components) {
+    if (blamed.member == nullptr && is_at_fault(output, status, vertices, components)) {
+      blamed = blamed_plane(status, kOut / name);
     }
+  });
+  if (blamed.member == nullptr && is_at_fault(out.patch, status, vertices, 1)) {
+    return kOut / "patch";
   }
-  const bool patch =
-      status == Status::output_too_small && out.patch.wanted() && out.patch.capacity < vertices;
-  return patch ? kOut / "patch" : blamed_in_mesh(status);
+  return blamed.member == nullptr ? blamed_in_mesh(status) : blamed;
 }
 
 /// What vertex_formats.h says of an output, and what C++ makes of it.
@@ -78,7 +81,7 @@ constexpr struct {
     {&simdbezier_formatted_outputs::parameters, &FormattedOutputs::parameters, "parameters"}};
 
 FormattedOutputs outputs_of(const simdbezier_formatted_outputs* given) {
-  const simdbezier_formatted_outputs known = read(given, kOut);
+  const auto known = read(given, kOut);
   FormattedOutputs out;
   for (const auto& [member, output, name] : kFormatted) {
     const simdbezier_formatted_output& one = known.*member;
@@ -105,14 +108,10 @@ Path blamed_output(const FormattedOutputs& out, Status status, std::size_t verti
     alone.box = out.box;
     if ((out.*output).first != nullptr &&
         detail::FormattedColumns(alone).check(alone, vertices) == status) {
-      switch (status.code()) {
-      case Status::bad_components:
-        return kOut / name / "format";
-      case Status::bad_stride:
-        return kOut / name / "stride";
-      default:
-        return kOut / name;
-      }
+      return blamed(status,
+                    {{{Status::bad_components}, kOut / name / "format"},
+                     {{Status::bad_stride}, kOut / name / "stride"}},
+                    kOut / name);
     }
   }
   return blamed_in_mesh(status);
@@ -152,7 +151,7 @@ simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set
     const MeshLayout& numbers = object_of(layout, kLayout);
     require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const Vectors<T> to = vectors_of<T>(*out, kOut);
+      const Vectors<T> to = output_of<T>(*out, kOut);
       const Options how = call_options_of(options);
       require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, how,
                                           range_of(first_patch, patch_count)),
@@ -205,7 +204,7 @@ simdbezier_status simdbezier_find_quantisation_box(const simdbezier_nets* nets, 
   return answer(__func__, [&] {
     require(box != nullptr, SIMDBEZIER_NULL_OUTPUT, {"box"});
     const auto as = choice(format, kLastFormat, {"format"});
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+    with_net_array(nets, length, [&](const auto& views) {
       QuantisationBox found;
       require_ok(quantisation_box(views, as, found), [&](Status status) -> Path {
         if (status == Status::bad_tolerance) {

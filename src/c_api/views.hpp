@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
@@ -13,6 +15,7 @@
 #include <simdbezier/outputs.hpp>
 #include <simdbezier/patch_set.hpp>
 #include <simdbezier/rates.hpp>
+#include <simdbezier/splines.hpp>
 #include <simdbezier/status.hpp>
 
 #include "src/c_api/structs.hpp"
@@ -33,7 +36,7 @@ inline Destination destination_of(simdbezier_destination destination) {
 inline double limit_of(double value) noexcept { return value == 0 ? kUnlimited : value; }
 
 inline Options call_options_of(const simdbezier_options* given) {
-  const simdbezier_options known = read_options(given, kOptions);
+  const auto known = read_options(given, kOptions);
   return {.threads = known.threads,
           .isa = isa_of(known.isa, kOptions / "isa"),
           .watertight = known.not_watertight == 0,
@@ -41,7 +44,7 @@ inline Options call_options_of(const simdbezier_options* given) {
 }
 
 inline PackOptions pack_options_of(const simdbezier_pack_options* given) {
-  const simdbezier_pack_options known = read_options(given, kOptions);
+  const auto known = read_options(given, kOptions);
   PackOptions options;
   options.local_origin = known.local_origin != 0;
   std::copy_n(known.relative_to, 3, options.relative_to);
@@ -50,70 +53,83 @@ inline PackOptions pack_options_of(const simdbezier_pack_options* given) {
   return options;
 }
 
-inline Weights weights_of(simdbezier_weights weights, const Path& path) {
-  return choice(weights, Weights::homogeneous, path / "weights");
+/// What options of rates and of meshes have in common.
+template <typename Struct>
+void set_limits(RateOptions& options, const Given<Struct>& known) {
+  options.tolerance = limit_of(known.tolerance);
+  options.tolerances = SIMDBEZIER_SPAN(known, tolerances);
+  options.longest_edge = limit_of(known.longest_edge);
+  options.normal_degrees = limit_of(known.normal_degrees);
 }
 
-inline Parameters parameters_of(simdbezier_parameters parameters, const Path& path) {
-  return choice(parameters, Parameters::centred, path / "parameters");
+template <typename Struct>
+Weights weights_of(const Given<Struct>& given) {
+  return choice(given.weights, Weights::homogeneous, given.path / "weights");
 }
 
-/// The address of the first value of nets or curves; memory that is null or too short is refused.
+/// The address of the first value of `count` nets, curves or splines, and all of their memory;
+/// memory that is null or too short is refused.
 template <typename S, typename Struct>
-auto first_value(const Struct& given, const Path& path) {
+auto first_value(const Given<Struct>& given, std::size_t count) {
   constexpr bool kInput = std::is_const_v<std::remove_pointer_t<decltype(given.points)>>;
   using Value = std::conditional_t<kInput, const S, S>;
-  require_scalar<S>(given.scalar, path);
-  if (given.count == 0) {
+  require_scalar<S>(given.scalar, given.path);
+  if (count == 0) {
     return std::pair<Value*, std::span<Value>>();
   }
   require(given.points != nullptr, kInput ? SIMDBEZIER_NULL_INPUT : SIMDBEZIER_NULL_OUTPUT,
-          path / "points");
+          given.path / "points");
   constexpr auto kTooSmall = kInput ? SIMDBEZIER_INPUT_TOO_SMALL : SIMDBEZIER_OUTPUT_TOO_SMALL;
-  require(given.length > 0, kTooSmall, path / "length");
+  require(given.length > 0, kTooSmall, given.path / "length");
   require(given.first >= 0 && static_cast<std::size_t>(given.first) < given.length, kTooSmall,
-          path / "first");
-  Value* const points = numbers_at<S>(given.points, path / "points");
+          given.path / "first");
+  Value* const points = numbers_at<S>(given.points, given.path / "points");
   return std::pair<Value*, std::span<Value>>(points + given.first, {points, given.length});
+}
+
+/// What nets, curves and splines have in common.
+template <typename S, typename View, typename Struct>
+void set_points(View& view, const Given<Struct>& given, std::size_t count) {
+  std::tie(view.points, view.memory) = first_value<S>(given, count);
+  view.point_stride = given.point_stride;
+  view.component_stride = given.component_stride;
+  view.components = given.components;
+  view.weights = weights_of(given);
 }
 
 /// Nets = ControlNets<S> or MutableNets<S>.
 template <typename S, typename Nets, typename Struct>
-Nets nets_like(const Struct& given, const Path& path) {
-  const auto [points, memory] = first_value<S>(given, path);
-  return {points,
-          given.count,
-          given.degree_u,
-          given.degree_v,
-          given.net_stride,
-          given.row_stride,
-          given.point_stride,
-          given.component_stride,
-          given.components,
-          weights_of(given.weights, path),
-          memory};
+Nets nets_like(const Given<Struct>& given) {
+  Nets nets;
+  set_points<S>(nets, given, given.count);
+  nets.count = given.count;
+  nets.degree_u = given.degree_u;
+  nets.degree_v = given.degree_v;
+  nets.patch_stride = given.net_stride;
+  nets.row_stride = given.row_stride;
+  return nets;
 }
 template <typename S>
-ControlNets<S> nets_of(const simdbezier_nets& given, const Path& path) {
-  return nets_like<S, ControlNets<S>>(given, path);
+ControlNets<S> view_of(const Given<simdbezier_nets>& given) {
+  return nets_like<S, ControlNets<S>>(given);
 }
 template <typename S>
-MutableNets<S> nets_of(const simdbezier_mutable_nets& given, const Path& path) {
-  return nets_like<S, MutableNets<S>>(given, path);
+MutableNets<S> view_of(const Given<simdbezier_mutable_nets>& given) {
+  return nets_like<S, MutableNets<S>>(given);
 }
 template <typename S>
-ControlCurves<S> curves_of(const simdbezier_control_curves& given, const Path& path) {
-  const auto [points, memory] = first_value<S>(given, path);
-  return {points,
-          given.count,
-          given.degree,
-          given.curve_stride,
-          given.point_stride,
-          given.component_stride,
-          given.components,
-          weights_of(given.weights, path),
-          memory};
+ControlCurves<S> view_of(const Given<simdbezier_control_curves>& given) {
+  ControlCurves<S> curves;
+  set_points<S>(curves, given, given.count);
+  curves.count = given.count;
+  curves.degree = given.degree;
+  curves.curve_stride = given.curve_stride;
+  return curves;
 }
+
+/// The statuses of outputs that have no members of their own.
+inline constexpr std::initializer_list<Status::Code> kOutputFaults = {
+    Status::null_output, Status::output_too_small, Status::overlapping_outputs};
 
 /// The member of nets or curves that a status is about.
 Path blamed_nets(Status status, const Path& nets);
@@ -147,33 +163,57 @@ void reserve(std::vector<V>& values, std::size_t length) {
   }
 }
 
-/// body(std::span<const ControlNets<S>>) with the nets of an array, S being their type.
-template <typename Body>
-auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) {
+/// body(std::span<const View>) with the views that an array of structs describes.
+template <typename Struct, typename Body>
+auto with_array(const Struct* array, std::size_t length, const char* name, Body body) {
   const simdbezier_scalar scalar =
-      length == 0 ? SIMDBEZIER_F32 : read_element(nets, 0, "nets").scalar;
-  return with_scalar(scalar, Path{"nets", 0} / "scalar", [&]<typename S>() {
-    std::vector<ControlNets<S>> views;
+      length == 0 ? SIMDBEZIER_F32 : read_element(array, 0, name).scalar;
+  return with_scalar(scalar, Path{name, 0} / "scalar", [&]<typename S>() {
+    std::vector<decltype(view_of<S>(read_element(array, 0, name)))> views;
     reserve(views, length);
     for (std::size_t k = 0; k < length; ++k) {
-      views.push_back(nets_of<S>(read_element(nets, k, "nets"), {"nets", k}));
+      views.push_back(view_of<S>(read_element(array, k, name)));
     }
-    return body(std::span<const ControlNets<S>>(views));
+    return body(std::span(std::as_const(views)));
   });
 }
+template <typename Body>
+auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) {
+  return with_array(nets, length, "nets", body);
+}
 
-/// Finds the nets, of several, that hold a patch.
+/// body(view) of one struct that was read.
+template <typename Struct, typename Body>
+auto with_view(const Given<Struct>& given, Body body) {
+  return with_scalar(given.scalar, given.path / "scalar",
+                     [&]<typename S>() { return body(view_of<S>(given)); });
+}
+
 template <typename S>
-Path nets_with_patch(std::span<const ControlNets<S>> nets, std::size_t patch) {
+std::size_t patches_in(const ControlNets<S>& nets) {
+  return nets.count;
+}
+template <typename S>
+std::size_t patches_in(const SplineSurface<S>& surface) {
+  return span_count(surface).patches();
+}
+/// Finds the element of an array of nets or splines that holds a patch.
+template <typename View>
+Path element_with_patch(const char* name, std::span<const View> views, std::size_t patch) {
   std::size_t k = 0;
-  while (k + 1 < nets.size() && patch >= nets[k].count) {
-    patch -= nets[k++].count;
+  while (k + 1 < views.size() && patch >= patches_in(views[k])) {
+    patch -= patches_in(views[k++]);
   }
-  return {"nets", k};
+  return {name, k};
+}
+/// The member of nets that a status is about, at a patch of several.
+template <typename S>
+Path blamed_nets(Status status, std::span<const ControlNets<S>> nets, std::size_t patch) {
+  return blamed_nets(status, element_with_patch("nets", nets, patch));
 }
 
 template <typename T>
-Vectors<T> vectors_of(const simdbezier_vectors& given, const Path& path) {
+Vectors<T> output_of(const simdbezier_vectors& given, const Path& path) {
   if (given.x == nullptr && given.y == nullptr && given.z == nullptr && given.capacity == 0) {
     return {};
   }
@@ -185,7 +225,7 @@ Vectors<T> vectors_of(const simdbezier_vectors& given, const Path& path) {
 }
 
 template <typename T>
-Values<T> values_of(const simdbezier_values& given, const Path& path) {
+Values<T> output_of(const simdbezier_values& given, const Path& path) {
   if (given.first == nullptr && given.length == 0) {
     return {};
   }
@@ -194,63 +234,7 @@ Values<T> values_of(const simdbezier_values& given, const Path& path) {
   return std::span<T>(numbers_at<T>(given.first, path / "first"), given.length);
 }
 
-/// Structs of the C API as those of C++ that have the same layout, which the caller has asserted.
-template <typename To, typename From>
-std::span<To> in_place(std::span<From> from) {
-  static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
-  return {reinterpret_cast<To*>(from.data()), from.size()};
-}
-
-/// SIMDBEZIER_SAMPLE_… and SampleStatus are the same bytes.
-inline Values<SampleStatus> sample_statuses(std::uint8_t* first, std::size_t length,
-                                            const Path& path) {
-  if (first == nullptr && length == 0) {
-    return {};
-  }
-  require(first != nullptr, SIMDBEZIER_NULL_OUTPUT, path / "status");
-  return std::span(reinterpret_cast<SampleStatus*>(first), length);
-}
-
-/// What members of a struct of parameters are called.
-struct ParameterNames {
-  const char* values;
-  const char* length;
-};
-
-/// `count` parameters of a grid; null: uniform ones.
-template <typename T>
-const T* grid_parameters(const void* first, std::size_t length, std::size_t count,
-                         simdbezier_scalar scalar, const Path& path, const ParameterNames& names) {
-  if (first == nullptr) {
-    require(length == 0, SIMDBEZIER_NULL_INPUT, path / names.length);
-    return nullptr;
-  }
-  require_scalar<T>(scalar, path);
-  require(length >= count, SIMDBEZIER_INPUT_TOO_SMALL, path / names.length);
-  return numbers_at<T>(first, path / names.values);
-}
-
-/// The parameters of single samples.
-template <typename T>
-std::span<const T> sample_parameters(const void* first, std::size_t length,
-                                     simdbezier_scalar scalar, const Path& path,
-                                     const char* member) {
-  require_scalar<T>(scalar, path);
-  return span_of(numbers_at<T>(first, path / member), length, path / member);
-}
-
-inline SetRange range_of(std::size_t first, std::size_t count) {
-  // The largest count is no set's, and must not be taken for the number that means all the rest.
-  return {first, count == 0 ? SetRange::kToTheEnd : std::min(count, SetRange::kToTheEnd - 1)};
-}
-
-/// Whether an output of one number a sample is wanted and has too little memory.
-template <typename V>
-bool is_short(const Values<V>& values, std::size_t samples) {
-  return values.wanted() && values.capacity < samples;
-}
-
-/// One vector output of a call, where it is wanted, that a status is about.
+/// Whether a status is about an output, where it is wanted.
 template <typename T>
 bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
                  std::int64_t components) {
@@ -266,19 +250,30 @@ bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
     return detail::check_planes(vectors, static_cast<std::size_t>(components)) == status;
   }
 }
+template <typename V>
+bool is_at_fault(const Values<V>& values, Status status, std::size_t samples,
+                 std::int64_t /*components*/) {
+  return status == Status::output_too_small && values.wanted() && values.capacity < samples;
+}
 
 /// The plane of a vector output that a status is about, or the whole of it.
 inline Path blamed_plane(Status status, const Path& vectors) {
-  switch (status.code()) {
-  case Status::missing_y:
-  case Status::extra_y:
-    return vectors / "y";
-  case Status::missing_z:
-  case Status::extra_z:
-    return vectors / "z";
-  default:
-    return vectors;
-  }
+  return blamed(status,
+                {{{Status::missing_y, Status::extra_y}, vectors / "y"},
+                 {{Status::missing_z, Status::extra_z}, vectors / "z"}},
+                vectors);
+}
+
+/// Structs of the C API as those of C++ that have the same layout, which the caller has asserted.
+template <typename To, typename From>
+std::span<To> in_place(std::span<From> from) {
+  static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
+  return {reinterpret_cast<To*>(from.data()), from.size()};
+}
+
+inline SetRange range_of(std::size_t first, std::size_t count) {
+  // The largest count is no set's, and must not be taken for the number that means all the rest.
+  return {first, count == 0 ? SetRange::kToTheEnd : std::min(count, SetRange::kToTheEnd - 1)};
 }
 
 /// What a status of an evaluation is about, where it is not one of the outputs.
