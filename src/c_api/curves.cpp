@@ -86,36 +86,22 @@ simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbe
   });
 }
 
-simdbezier_status simdbezier_iso_u(const simdbezier_patch_set* patches, double u0,
-                                   const simdbezier_pack_options* options,
-                                   simdbezier_curve_set** curves) {
-  return iso_curves(__func__, patches, "u0", options, curves,
-                    [&](const auto& set, auto& made, const PackOptions& how) {
-                      return iso_u(set, u0, made, how);
-                    });
-}
-
-simdbezier_status simdbezier_iso_v(const simdbezier_patch_set* patches, double v0,
-                                   const simdbezier_pack_options* options,
-                                   simdbezier_curve_set** curves) {
-  return iso_curves(__func__, patches, "v0", options, curves,
-                    [&](const auto& set, auto& made, const PackOptions& how) {
-                      return iso_v(set, v0, made, how);
-                    });
-}
-
-simdbezier_status simdbezier_iso_u_points(const simdbezier_nets* nets, double u0, double* points,
-                                          size_t length, const simdbezier_options* options) {
-  return iso_points(__func__, nets, "u0", points, length, options,
-                    [&](const auto& views, const Values<double>& out, const Options& how) {
-                      return iso_u(views, u0, out, how);
-                    });
-}
-
-simdbezier_status simdbezier_iso_v_points(const simdbezier_nets* nets, double v0, double* points,
-                                          size_t length, const simdbezier_options* options) {
-  return iso_points(__func__, nets, "v0", points, length, options,
-                    [&](const auto& views, const Values<double>& out, const Options& how) {
-                      return iso_v(views, v0, out, how);
-                    });
-}
+#define SIMDBEZIER_ISO(u, parameter)                                                               \
+  simdbezier_status simdbezier_iso_##u(const simdbezier_patch_set* patches, double parameter,      \
+                                       const simdbezier_pack_options* options,                     \
+                                       simdbezier_curve_set** curves) {                            \
+    return iso_curves(__func__, patches, #parameter, options, curves,                              \
+                      [&](const auto& set, auto& made, const PackOptions& how) {                   \
+                        return iso_##u(set, parameter, made, how);                                 \
+                      });                                                                          \
+  }                                                                                                \
+  simdbezier_status simdbezier_iso_##u##_points(const simdbezier_nets* nets, double parameter,     \
+                                                double* points, size_t length,                     \
+                                                const simdbezier_options* options) {               \
+    return iso_points(__func__, nets, #parameter, points, length, options,                         \
+                      [&](const auto& view, const Values<double>& out, const Options& how) {       \
+                        return iso_##u(view, parameter, out, how);                                 \
+                      });                                                                          \
+  }
+SIMDBEZIER_ISO(u, u0)
+SIMDBEZIER_ISO(v, v0)

@@ -90,17 +90,24 @@ void require_number(const std::size_t* number, const char* name) {
 using namespace simdbezier;
 using namespace simdbezier::c_api;
 
-simdbezier_status simdbezier_write_triangles_u32(const simdbezier_mesh_layout* layout,
-                                                 uint32_t* triangles, size_t length,
-                                                 const simdbezier_primitive_options* options) {
-  return triangles_of(__func__, layout, triangles, length, options);
-}
-
-simdbezier_status simdbezier_write_triangles_u16(const simdbezier_mesh_layout* layout,
-                                                 uint16_t* triangles, size_t length,
-                                                 const simdbezier_primitive_options* options) {
-  return triangles_of(__func__, layout, triangles, length, options);
-}
+// What is written as indices of 32 and of 16 bits.
+#define SIMDBEZIER_INDICES(suffix, Index)                                                          \
+  simdbezier_status simdbezier_write_triangles_##suffix(                                           \
+      const simdbezier_mesh_layout* layout, Index* triangles, size_t length,                       \
+      const simdbezier_primitive_options* options) {                                               \
+    return triangles_of(__func__, layout, triangles, length, options);                             \
+  }                                                                                                \
+  simdbezier_status simdbezier_write_polygons_##suffix(                                            \
+      const simdbezier_mesh_layout* layout, Index* indices, size_t length, uint8_t* sizes,         \
+      size_t sizes_length, const simdbezier_primitive_options* options) {                          \
+    return polygons_of(__func__, layout, indices, length, sizes, sizes_length, options);           \
+  }                                                                                                \
+  simdbezier_status simdbezier_write_strips_##suffix(                                              \
+      const simdbezier_mesh_layout* layout, Index* indices, size_t length, int32_t threads) {      \
+    return strips_of(__func__, layout, indices, length, threads);                                  \
+  }
+SIMDBEZIER_INDICES(u32, uint32_t)
+SIMDBEZIER_INDICES(u16, uint16_t)
 
 simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, size_t* polygons,
                                           size_t* indices,
@@ -116,20 +123,6 @@ simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, 
   });
 }
 
-simdbezier_status simdbezier_write_polygons_u32(const simdbezier_mesh_layout* layout,
-                                                uint32_t* indices, size_t length, uint8_t* sizes,
-                                                size_t sizes_length,
-                                                const simdbezier_primitive_options* options) {
-  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, options);
-}
-
-simdbezier_status simdbezier_write_polygons_u16(const simdbezier_mesh_layout* layout,
-                                                uint16_t* indices, size_t length, uint8_t* sizes,
-                                                size_t sizes_length,
-                                                const simdbezier_primitive_options* options) {
-  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, options);
-}
-
 simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, size_t* indices,
                                         int32_t threads) {
   return answer(__func__, [&] {
@@ -138,16 +131,6 @@ simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, si
     require_ok(strip_size(object_of(layout, kLayout), size, {.threads = threads}), about(""));
     *indices = size;
   });
-}
-
-simdbezier_status simdbezier_write_strips_u32(const simdbezier_mesh_layout* layout,
-                                              uint32_t* indices, size_t length, int32_t threads) {
-  return strips_of(__func__, layout, indices, length, threads);
-}
-
-simdbezier_status simdbezier_write_strips_u16(const simdbezier_mesh_layout* layout,
-                                              uint16_t* indices, size_t length, int32_t threads) {
-  return strips_of(__func__, layout, indices, length, threads);
 }
 
 simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout, size_t* clusters,

@@ -53,24 +53,15 @@ typedef struct simdbezier_samples {
   simdbezier_parameters parameters;
 } simdbezier_samples;
 
-static inline simdbezier_samples simdbezier_samples_f32(const uint32_t* patch, const float* u,
-                                                        const float* v, size_t length) {
-  simdbezier_samples samples = {sizeof samples, 0, 0, 0, 0, 0, 0, SIMDBEZIER_F32, 0};
-  samples.patch = patch;
-  samples.u = u;
-  samples.v = v;
-  samples.patch_length = samples.u_length = samples.v_length = length;
-  return samples;
-}
-static inline simdbezier_samples simdbezier_samples_f64(const uint32_t* patch, const double* u,
-                                                        const double* v, size_t length) {
-  simdbezier_samples samples = {sizeof samples, 0, 0, 0, 0, 0, 0, SIMDBEZIER_F64, 0};
-  samples.patch = patch;
-  samples.u = u;
-  samples.v = v;
-  samples.patch_length = samples.u_length = samples.v_length = length;
-  return samples;
-}
+// simdbezier_samples_f32(), …_f64().
+#define SIMDBEZIER_SAMPLES(suffix, Number, TYPE)                                                   \
+  static inline simdbezier_samples simdbezier_samples_##suffix(                                    \
+      const uint32_t* patch, const Number* u, const Number* v, size_t length) {                    \
+    const simdbezier_samples samples = {sizeof samples, patch, length,         u, length, v,       \
+                                        length,         TYPE,  SIMDBEZIER_UNIT};                   \
+    return samples;                                                                                \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_SAMPLES)
 
 // to_centred(): x = 2u - 1, rounded once.
 SIMDBEZIER_API float simdbezier_to_centred_f32(double u);

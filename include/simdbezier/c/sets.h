@@ -87,20 +87,6 @@ static inline simdbezier_nets simdbezier_packed_nets_of(const void* points, size
   nets.scalar = scalar;
   return nets;
 }
-static inline simdbezier_nets simdbezier_packed_nets_f32(const float* points, size_t length,
-                                                         int32_t degree_u, int32_t degree_v,
-                                                         int32_t components,
-                                                         simdbezier_weights weights) {
-  return simdbezier_packed_nets_of(points, length, degree_u, degree_v, components, weights,
-                                   SIMDBEZIER_F32);
-}
-static inline simdbezier_nets simdbezier_packed_nets_f64(const double* points, size_t length,
-                                                         int32_t degree_u, int32_t degree_v,
-                                                         int32_t components,
-                                                         simdbezier_weights weights) {
-  return simdbezier_packed_nets_of(points, length, degree_u, degree_v, components, weights,
-                                   SIMDBEZIER_F64);
-}
 
 static inline simdbezier_mutable_nets
 simdbezier_packed_mutable_nets_of(void* points, size_t length, int32_t degree_u, int32_t degree_v,
@@ -122,20 +108,6 @@ simdbezier_packed_mutable_nets_of(void* points, size_t length, int32_t degree_u,
   nets.scalar = scalar;
   return nets;
 }
-static inline simdbezier_mutable_nets
-simdbezier_packed_mutable_nets_f32(float* points, size_t length, int32_t degree_u, int32_t degree_v,
-                                   int32_t components, simdbezier_weights weights) {
-  return simdbezier_packed_mutable_nets_of(points, length, degree_u, degree_v, components, weights,
-                                           SIMDBEZIER_F32);
-}
-static inline simdbezier_mutable_nets
-simdbezier_packed_mutable_nets_f64(double* points, size_t length, int32_t degree_u,
-                                   int32_t degree_v, int32_t components,
-                                   simdbezier_weights weights) {
-  return simdbezier_packed_mutable_nets_of(points, length, degree_u, degree_v, components, weights,
-                                           SIMDBEZIER_F64);
-}
-
 static inline simdbezier_control_curves
 simdbezier_packed_curves_of(const void* points, size_t length, int32_t degree, int32_t components,
                             simdbezier_weights weights, simdbezier_scalar scalar) {
@@ -154,18 +126,26 @@ simdbezier_packed_curves_of(const void* points, size_t length, int32_t degree, i
   curves.scalar = scalar;
   return curves;
 }
-static inline simdbezier_control_curves simdbezier_packed_curves_f32(const float* points,
-                                                                     size_t length, int32_t degree,
-                                                                     int32_t components,
-                                                                     simdbezier_weights weights) {
-  return simdbezier_packed_curves_of(points, length, degree, components, weights, SIMDBEZIER_F32);
-}
-static inline simdbezier_control_curves simdbezier_packed_curves_f64(const double* points,
-                                                                     size_t length, int32_t degree,
-                                                                     int32_t components,
-                                                                     simdbezier_weights weights) {
-  return simdbezier_packed_curves_of(points, length, degree, components, weights, SIMDBEZIER_F64);
-}
+// simdbezier_packed_nets_f32(), …_f64(), and those of mutable nets and curves.
+#define SIMDBEZIER_PACKED(suffix, Number, TYPE)                                                    \
+  static inline simdbezier_nets simdbezier_packed_nets_##suffix(                                   \
+      const Number* points, size_t length, int32_t degree_u, int32_t degree_v, int32_t components, \
+      simdbezier_weights weights) {                                                                \
+    return simdbezier_packed_nets_of(points, length, degree_u, degree_v, components, weights,      \
+                                     TYPE);                                                        \
+  }                                                                                                \
+  static inline simdbezier_mutable_nets simdbezier_packed_mutable_nets_##suffix(                   \
+      Number* points, size_t length, int32_t degree_u, int32_t degree_v, int32_t components,       \
+      simdbezier_weights weights) {                                                                \
+    return simdbezier_packed_mutable_nets_of(points, length, degree_u, degree_v, components,       \
+                                             weights, TYPE);                                       \
+  }                                                                                                \
+  static inline simdbezier_control_curves simdbezier_packed_curves_##suffix(                       \
+      const Number* points, size_t length, int32_t degree, int32_t components,                     \
+      simdbezier_weights weights) {                                                                \
+    return simdbezier_packed_curves_of(points, length, degree, components, weights, TYPE);         \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_PACKED)
 
 // PackOptions.
 typedef struct simdbezier_pack_options {

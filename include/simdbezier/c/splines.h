@@ -103,21 +103,6 @@ simdbezier_packed_spline_surface_of(const void* points, size_t length, size_t ro
   surface.scalar = scalar;
   return surface;
 }
-static inline simdbezier_spline_surface
-simdbezier_packed_spline_surface_f32(const float* points, size_t length, size_t rows,
-                                     size_t columns, int32_t degree_u, int32_t degree_v,
-                                     int32_t components, simdbezier_weights weights) {
-  return simdbezier_packed_spline_surface_of(points, length, rows, columns, degree_u, degree_v,
-                                             components, weights, SIMDBEZIER_F32);
-}
-static inline simdbezier_spline_surface
-simdbezier_packed_spline_surface_f64(const double* points, size_t length, size_t rows,
-                                     size_t columns, int32_t degree_u, int32_t degree_v,
-                                     int32_t components, simdbezier_weights weights) {
-  return simdbezier_packed_spline_surface_of(points, length, rows, columns, degree_u, degree_v,
-                                             components, weights, SIMDBEZIER_F64);
-}
-
 static inline simdbezier_spline_curve
 simdbezier_packed_spline_curve_of(const void* points, size_t length, size_t count, int32_t degree,
                                   int32_t components, simdbezier_weights weights,
@@ -133,18 +118,21 @@ simdbezier_packed_spline_curve_of(const void* points, size_t length, size_t coun
   curve.scalar = scalar;
   return curve;
 }
-static inline simdbezier_spline_curve
-simdbezier_packed_spline_curve_f32(const float* points, size_t length, size_t count, int32_t degree,
-                                   int32_t components, simdbezier_weights weights) {
-  return simdbezier_packed_spline_curve_of(points, length, count, degree, components, weights,
-                                           SIMDBEZIER_F32);
-}
-static inline simdbezier_spline_curve
-simdbezier_packed_spline_curve_f64(const double* points, size_t length, size_t count,
-                                   int32_t degree, int32_t components, simdbezier_weights weights) {
-  return simdbezier_packed_spline_curve_of(points, length, count, degree, components, weights,
-                                           SIMDBEZIER_F64);
-}
+// simdbezier_packed_spline_surface_f32(), …_f64(), and those of curves.
+#define SIMDBEZIER_PACKED_SPLINES(suffix, Number, TYPE)                                            \
+  static inline simdbezier_spline_surface simdbezier_packed_spline_surface_##suffix(               \
+      const Number* points, size_t length, size_t rows, size_t columns, int32_t degree_u,          \
+      int32_t degree_v, int32_t components, simdbezier_weights weights) {                          \
+    return simdbezier_packed_spline_surface_of(points, length, rows, columns, degree_u, degree_v,  \
+                                               components, weights, TYPE);                         \
+  }                                                                                                \
+  static inline simdbezier_spline_curve simdbezier_packed_spline_curve_##suffix(                   \
+      const Number* points, size_t length, size_t count, int32_t degree, int32_t components,       \
+      simdbezier_weights weights) {                                                                \
+    return simdbezier_packed_spline_curve_of(points, length, count, degree, components, weights,   \
+                                             TYPE);                                                \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_PACKED_SPLINES)
 
 // Faults of all calls below: simdbezier_fault::patch is the spline at fault, and `point` its
 // control point (row * columns + column), its knot, or the parameter, as the argument says.

@@ -152,79 +152,55 @@ static inline size_t simdbezier_records(size_t length, size_t members, ptrdiff_t
   return length < members || stride <= 0 ? 0 : (length - members) / (size_t)stride + 1;
 }
 
-// x y z triples, `stride` elements from one to the next.
-static inline simdbezier_vectors simdbezier_triples_f32(float* first, size_t length,
-                                                        ptrdiff_t stride) {
-  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F32};
-  vectors.x = first;
-  vectors.y = length < 2 ? 0 : first + 1;
-  vectors.z = length < 3 ? 0 : first + 2;
-  vectors.stride = stride;
-  vectors.capacity = simdbezier_records(length, 3, stride);
-  return vectors;
-}
-static inline simdbezier_vectors simdbezier_triples_f64(double* first, size_t length,
-                                                        ptrdiff_t stride) {
-  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F64};
-  vectors.x = first;
-  vectors.y = length < 2 ? 0 : first + 1;
-  vectors.z = length < 3 ? 0 : first + 2;
-  vectors.stride = stride;
-  vectors.capacity = simdbezier_records(length, 3, stride);
-  return vectors;
-}
+// Defines a function for floats, which ends in _f32, and the same for doubles.
+#define SIMDBEZIER_FOR_BOTH(DEFINE)                                                                \
+  DEFINE(f32, float, SIMDBEZIER_F32)                                                               \
+  DEFINE(f64, double, SIMDBEZIER_F64)
 
-// Pairs, for sets of two components and the parameters of vertices.
-static inline simdbezier_vectors simdbezier_pairs_f32(float* first, size_t length,
-                                                      ptrdiff_t stride) {
-  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F32};
-  vectors.x = first;
-  vectors.y = length < 2 ? 0 : first + 1;
-  vectors.stride = stride;
-  vectors.capacity = simdbezier_records(length, 2, stride);
-  return vectors;
-}
-static inline simdbezier_vectors simdbezier_pairs_f64(double* first, size_t length,
-                                                      ptrdiff_t stride) {
-  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F64};
-  vectors.x = first;
-  vectors.y = length < 2 ? 0 : first + 1;
-  vectors.stride = stride;
-  vectors.capacity = simdbezier_records(length, 2, stride);
-  return vectors;
-}
+// simdbezier_triples_f32(), …_f64(): x y z triples, `stride` elements from one to the next.
+#define SIMDBEZIER_TRIPLES(suffix, Number, TYPE)                                                   \
+  static inline simdbezier_vectors simdbezier_triples_##suffix(Number* first, size_t length,       \
+                                                               ptrdiff_t stride) {                 \
+    const simdbezier_vectors triples = {first,                                                     \
+                                        length < 2 ? 0 : first + 1,                                \
+                                        length < 3 ? 0 : first + 2,                                \
+                                        stride,                                                    \
+                                        simdbezier_records(length, 3, stride),                     \
+                                        TYPE};                                                     \
+    return triples;                                                                                \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_TRIPLES)
 
-// Planes of `length` elements each; y and z are null for sets of one or two components.
-static inline simdbezier_vectors simdbezier_planes_f32(float* x, float* y, float* z,
-                                                       size_t length) {
-  simdbezier_vectors vectors = {0, 0, 0, 1, 0, SIMDBEZIER_F32};
-  vectors.x = x;
-  vectors.y = y;
-  vectors.z = z;
-  vectors.capacity = length;
-  return vectors;
-}
-static inline simdbezier_vectors simdbezier_planes_f64(double* x, double* y, double* z,
-                                                       size_t length) {
-  simdbezier_vectors vectors = {0, 0, 0, 1, 0, SIMDBEZIER_F64};
-  vectors.x = x;
-  vectors.y = y;
-  vectors.z = z;
-  vectors.capacity = length;
-  return vectors;
-}
+// simdbezier_pairs_f32(), …: pairs, for sets of two components and the parameters of vertices.
+#define SIMDBEZIER_PAIRS(suffix, Number, TYPE)                                                     \
+  static inline simdbezier_vectors simdbezier_pairs_##suffix(Number* first, size_t length,         \
+                                                             ptrdiff_t stride) {                   \
+    const simdbezier_vectors pairs = {first,                                                       \
+                                      length < 2 ? 0 : first + 1,                                  \
+                                      0,                                                           \
+                                      stride,                                                      \
+                                      simdbezier_records(length, 2, stride),                       \
+                                      TYPE};                                                       \
+    return pairs;                                                                                  \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_PAIRS)
 
-static inline simdbezier_values simdbezier_values_f32(float* first, size_t length) {
-  simdbezier_values values = {0, 0, SIMDBEZIER_F32};
-  values.first = first;
-  values.length = length;
-  return values;
-}
-static inline simdbezier_values simdbezier_values_f64(double* first, size_t length) {
-  simdbezier_values values = {0, 0, SIMDBEZIER_F64};
-  values.first = first;
-  values.length = length;
-  return values;
-}
+// simdbezier_planes_f32(), …: planes of `length` elements each; y and z are null for sets of one or
+// two components.
+#define SIMDBEZIER_PLANES(suffix, Number, TYPE)                                                    \
+  static inline simdbezier_vectors simdbezier_planes_##suffix(Number* x, Number* y, Number* z,     \
+                                                              size_t length) {                     \
+    const simdbezier_vectors planes = {x, y, z, 1, length, TYPE};                                  \
+    return planes;                                                                                 \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_PLANES)
+
+// simdbezier_values_f32(), …: one value a sample.
+#define SIMDBEZIER_VALUES(suffix, Number, TYPE)                                                    \
+  static inline simdbezier_values simdbezier_values_##suffix(Number* first, size_t length) {       \
+    const simdbezier_values values = {first, length, TYPE};                                        \
+    return values;                                                                                 \
+  }
+SIMDBEZIER_FOR_BOTH(SIMDBEZIER_VALUES)
 
 SIMDBEZIER_END_C
