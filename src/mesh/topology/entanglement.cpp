@@ -6,7 +6,6 @@
 #include <bit>
 #include <vector>
 
-#include "src/mesh/topology/neighbours.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/fresh_vector.hpp"
 #include "src/runtime/sort.hpp"
@@ -14,50 +13,32 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Patches at corners with at most so many of them are compared one by one.
-constexpr std::size_t kMostAtCorner = 64;
-
-/// Corners with so many patches that they are not compared one by one.
-class CrowdedPlaces {
+/// How many of some patches have the same two corners, or the same two edges.
+class CommonPairs {
 public:
-  explicit CrowdedPlaces(std::span<const std::uint32_t> corners) : patches_(corners.size()) {
-    for (const std::uint32_t corner : corners) {
-      if (!is_more(patches_[corner])) {
-        ++patches_[corner];
-      }
+  CommonPairs(const TopologyData& topology, std::span<const std::uint32_t> patches)
+      : topology_(topology) {
+    for (const std::uint32_t patch : patches) {
+      find_pairs(patch);
+      corners_.insert(corners_.end(), own_corners_.begin(), own_corners_.end());
+      edges_.insert(edges_.end(), own_edges_.begin(), own_edges_.end());
     }
-    any_ = std::any_of(patches_.begin(), patches_.end(), is_more);
-  }
-  [[nodiscard]] bool any() const { return any_; }
-  [[nodiscard]] bool has(std::uint32_t corner) const { return is_more(patches_[corner]); }
-
-private:
-  static bool is_more(std::uint8_t patches) { return patches > kMostAtCorner; }
-  std::vector<std::uint8_t> patches_; ///< at every corner, kMostAtCorner + 1 standing for more
-  bool any_ = false;
-};
-
-/// Finds the patches that are entangled with those with which they share crowded corners only:
-/// neighbours are counted instead of compared.
-class CrowdedCorners {
-public:
-  CrowdedCorners(const TopologyData& topology, const CrowdedPlaces& places)
-      : topology_(topology), places_(places) {
-    if (places.any()) {
-      count_all();
-    }
+    sort_range(corners_.begin(), corners_.end());
+    sort_range(edges_.begin(), edges_.end());
   }
 
-  /// Whether a patch, which has no edge twice, shares two edges with another patch, or two corners
-  /// that no common edge joins: those that share one edge have both of its ends.
+  /// Whether a patch has an edge twice, or a corner twice that no side joins by being a point; or
+  /// shares two edges with another patch, or two corners that no common edge joins: those that
+  /// share one edge have both of its ends.
   [[nodiscard]] bool entangled(std::size_t patch) {
-    if (!places_.any()) {
-      return false;
-    }
     find_pairs(patch);
-    return std::any_of(edge_pairs_.begin(), edge_pairs_.end(),
-                       [&](Pair pair) { return count(edges_, pair) > 1; }) ||
-           std::any_of(corner_pairs_.begin(), corner_pairs_.end(), [&](Pair pair) {
+    return touches_itself(patch) ||
+           std::any_of(own_edges_.begin(), own_edges_.end(),
+                       [&](Pair pair) {
+                         return pair != edge_itself(static_cast<std::uint32_t>(pair)) &&
+                                count(edges_, pair) > 1;
+                       }) ||
+           std::any_of(own_corners_.begin(), own_corners_.end(), [&](Pair pair) {
              return count(corners_, pair) > 1 + neighbours_across(patch, pair);
            });
   }
@@ -65,24 +46,7 @@ public:
 private:
   using Pair = std::uint64_t;
 
-  void count_all() {
-    for (std::size_t patch = 0; patch < topology_.patches(); ++patch) {
-      find_pairs(patch);
-      corners_.insert(corners_.end(), corner_pairs_.begin(), corner_pairs_.end());
-      edges_.insert(edges_.end(), edge_pairs_.begin(), edge_pairs_.end());
-    }
-    sort_range(corners_.begin(), corners_.end());
-    sort_range(edges_.begin(), edges_.end());
-    edge_patches_.resize(topology_.edges());
-    for (std::size_t edge = 0; edge < topology_.edges(); ++edge) {
-      std::size_t last = topology_.patches();
-      for (const std::uint32_t side : topology_.sides_of(edge)) { // ascending
-        edge_patches_[edge] += side / kPatchEdges != last ? 1 : 0;
-        last = side / kPatchEdges;
-      }
-    }
-  }
-
+  static Pair edge_itself(std::uint32_t edge) { return pair_of(edge, edge); }
   static std::size_t count(const std::vector<Pair>& pairs, Pair pair) {
     const auto [begin, end] = std::equal_range(pairs.begin(), pairs.end(), pair);
     return static_cast<std::size_t>(end - begin);
@@ -92,27 +56,24 @@ private:
       pairs.push_back(pair);
     }
   }
+  [[nodiscard]] const Side& side(std::size_t patch, std::size_t k) const {
+    return topology_.sides[kPatchEdges * patch + k];
+  }
+  [[nodiscard]] std::uint32_t corner(std::size_t patch, std::size_t k) const {
+    return topology_.corners[kPatchCorners * patch + k];
+  }
 
-  /// A patch's different crowded corners, and its edges between such, two by two.
+  /// A patch's different corners, and its edges, two by two and each with itself.
   void find_pairs(std::size_t patch) {
-    corner_pairs_.clear();
-    edge_pairs_.clear();
-    const auto edge_of = [&](std::size_t k) -> const Side* {
-      const std::size_t side = kPatchEdges * patch + k;
-      const bool crowded = !topology_.sides[side].collapsed() &&
-                           places_.has(topology_.corner_of(side, 0)) &&
-                           places_.has(topology_.corner_of(side, 1));
-      return crowded ? &topology_.sides[side] : nullptr;
-    };
+    own_corners_.clear();
+    own_edges_.clear();
     for (std::size_t a = 0; a < 4; ++a) {
-      const std::uint32_t corner = topology_.corners[kPatchCorners * patch + a];
-      for (std::size_t b = a + 1; b < 4; ++b) {
-        const std::uint32_t other = topology_.corners[kPatchCorners * patch + b];
-        if (corner != other && places_.has(corner) && places_.has(other)) {
-          insert(corner_pairs_, pair_of(corner, other));
+      for (std::size_t b = a; b < 4; ++b) {
+        if (corner(patch, a) != corner(patch, b)) {
+          insert(own_corners_, pair_of(corner(patch, a), corner(patch, b)));
         }
-        if (edge_of(a) != nullptr && edge_of(b) != nullptr) {
-          insert(edge_pairs_, pair_of(edge_of(a)->edge(), edge_of(b)->edge()));
+        if (!side(patch, a).collapsed() && !side(patch, b).collapsed()) {
+          insert(own_edges_, pair_of(side(patch, a).edge(), side(patch, b).edge()));
         }
       }
     }
@@ -120,22 +81,43 @@ private:
   /// The patches behind the edges that join a patch's two corners.
   [[nodiscard]] std::size_t neighbours_across(std::size_t patch, Pair corners) const {
     std::size_t neighbours = 0;
-    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-      if (!topology_.sides[side].collapsed() &&
-          pair_of(topology_.corner_of(side, 0), topology_.corner_of(side, 1)) == corners) {
-        neighbours += edge_patches_[topology_.sides[side].edge()] - 1;
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      const Side& own = side(patch, k);
+      if (!own.collapsed() && pair_of(corner(patch, kSideCorners[k][0]),
+                                      corner(patch, kSideCorners[k][1])) == corners) {
+        neighbours += count(edges_, edge_itself(own.edge())) - 1;
       }
     }
     return neighbours;
   }
 
+  [[nodiscard]] bool touches_itself(std::size_t patch) const {
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = a + 1; b < 4; ++b) {
+        const Side& p = side(patch, a);
+        const Side& q = side(patch, b);
+        if ((!p.collapsed() && !q.collapsed() && p.edge() == q.edge()) ||
+            (corner(patch, a) == corner(patch, b) && !joined_in_a_point(patch, a, b))) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+  [[nodiscard]] bool joined_in_a_point(std::size_t patch, std::size_t a, std::size_t b) const {
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      if (side(patch, k).collapsed() && kSideCorners[k][0] == a && kSideCorners[k][1] == b) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   const TopologyData& topology_;
-  const CrowdedPlaces& places_;
-  std::vector<std::uint32_t> edge_patches_; ///< how many there are at every edge
-  std::vector<Pair> corners_;               ///< of all patches
-  std::vector<Pair> edges_;
-  std::vector<Pair> corner_pairs_; ///< of one patch
-  std::vector<Pair> edge_pairs_;
+  std::vector<Pair> corners_;
+  std::vector<Pair> edges_;       ///< those with themselves tell how many patches have an edge
+  std::vector<Pair> own_corners_; ///< of one patch
+  std::vector<Pair> own_edges_;
 };
 
 /// Looks for corners whose patches are candidates. From each corner, its patches reach others along
@@ -251,32 +233,11 @@ std::vector<std::uint32_t> entanglement_candidates(const TopologyData& topology,
 }
 
 void mark_entangled(std::span<const std::uint32_t> candidates, TopologyData& topology) {
-  if (candidates.empty()) {
-    return;
-  }
-  const Neighbours neighbours(topology);
-  const CrowdedPlaces places(topology.corners);
-  CrowdedCorners crowded(topology, places);
+  CommonPairs pairs(topology, candidates); // with which alone they can be entangled
   for (const std::uint32_t patch : candidates) {
-    bool marked = neighbours.touches_itself(patch);
-    Mask compared = 0; // corners whose patches have been
-    for (std::size_t k = 0; k < kPatchCorners && !marked; ++k) {
-      const std::size_t own = kPatchCorners * patch + k;
-      if (places.has(topology.corners[own])) {
-        continue;
-      }
-      for (std::size_t at = topology.next_corner[own]; at != own && !marked;
-           at = topology.next_corner[at]) {
-        const std::size_t other = at / kPatchCorners;
-        if (other != patch) {
-          const Mask common = neighbours.common_corners(patch, other);
-          marked = (common & compared) == 0 && neighbours.entangled(patch, other, common);
-        }
-      }
-      compared |= 1U << k;
+    if (pairs.entangled(patch)) {
+      topology.flags[patch] |= kEntangled;
     }
-    marked = marked || crowded.entangled(patch);
-    topology.flags[patch] |= marked ? kEntangled : 0;
   }
 }
 
