@@ -65,27 +65,6 @@ struct CellCorners {
   std::uint32_t at[4];
 };
 
-/// The four sides of a cell, in the direction of u and v.
-template <typename AnyLeg>
-struct CellSides {
-  AnyLeg bottom;
-  AnyLeg top;
-  AnyLeg west;
-  AnyLeg east;
-};
-
-/// A cell whose sides may have further vertices, or none.
-template <typename AnyLeg, typename Sink>
-void cut_cell(const CellSides<AnyLeg>& cell, bool falling, Sink& sink) {
-  if (falling) { // right angles at (0,0) and (1,1)
-    cut_half(cell.bottom, cell.west, sink);
-    cut_half(cell.top.reversed(), cell.east.reversed(), sink);
-  } else { // at (1,0) and (0,1)
-    cut_half(cell.east, cell.bottom.reversed(), sink);
-    cut_half(cell.west.reversed(), cell.top, sink);
-  }
-}
-
 /// The steps from the vertices of a cell to those of the next one: below and above.
 struct VertexSteps {
   std::uint32_t below;
@@ -283,11 +262,17 @@ private:
   void cut_chains(std::uint32_t i, std::uint32_t j, const CellCorners& c, Sink& sink) const {
     const std::uint32_t left[2] = {c.at[0], c.at[2]};
     const std::uint32_t right[2] = {c.at[1], c.at[3]};
-    const Chain bottom = j == 0 ? boundary_.between(kV0, i) : Chain{c.at, 1};
-    const Chain top = j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{c.at + 2, 1};
-    const Chain west = i == 0 ? boundary_.between(kU0, j) : Chain{left, 1};
-    const Chain east = i + 1 == nu_ ? boundary_.between(kU1, j) : Chain{right, 1};
-    cut_cell<Leg>({Leg(bottom), Leg(top), Leg(west), Leg(east)}, zones_.falling(i, j), sink);
+    const Leg bottom(j == 0 ? boundary_.between(kV0, i) : Chain{c.at, 1});
+    const Leg top(j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{c.at + 2, 1});
+    const Leg west(i == 0 ? boundary_.between(kU0, j) : Chain{left, 1});
+    const Leg east(i + 1 == nu_ ? boundary_.between(kU1, j) : Chain{right, 1});
+    if (zones_.falling(i, j)) { // right angles at (0,0) and (1,1)
+      cut_half(bottom, west, sink);
+      cut_half(top.reversed(), east.reversed(), sink);
+    } else { // at (1,0) and (0,1)
+      cut_half(east, bottom.reversed(), sink);
+      cut_half(west.reversed(), top, sink);
+    }
   }
 
   const PatchBoundary& boundary_;

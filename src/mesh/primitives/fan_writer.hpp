@@ -6,11 +6,24 @@
 
 #include "src/mesh/layout/cells.hpp"
 #include "src/mesh/primitives/cell_patterns.hpp"
-#include "src/mesh/primitives/linear_leg.hpp"
 #include "src/mesh/primitives/rung.hpp"
-#include "src/mesh/primitives/union_counts.hpp"
 
 namespace simdbezier::detail {
+
+/// A leg of a cell in a corner of the patch, from the corner on, as cut_half() takes it.
+struct CornerLeg {
+  std::uint32_t corner;
+  std::uint32_t zero; ///< the number that the corner would have as a point of the row
+  std::uint32_t step;
+  std::uint32_t count; ///< of segments
+
+  [[nodiscard]] std::uint32_t segments() const { return count; }
+  [[nodiscard]] std::uint32_t vertex(std::uint32_t k) const {
+    return k == 0 ? corner : zero + k * step;
+  }
+  /// The leg's other end.
+  [[nodiscard]] std::uint32_t far() const { return zero + count * step; }
+};
 
 /// Writes triangles with room behind them.
 template <typename Index, bool kTurned>
@@ -53,25 +66,25 @@ public:
   /// The fan of a leg in a corner around the inner vertex, towards the corner.
   template <bool kSideFirst>
   void corner_fan(const CornerLeg& leg, std::uint32_t inner) {
-    fan<kSideFirst>(Rung<Index>(leg.far(), inner), leg.step == 1, leg.segments);
-    const bool single = !kSideFirst && leg.segments == 1;
+    fan<kSideFirst>(Rung<Index>(leg.far(), inner), leg.step == 1, leg.count);
+    const bool single = !kSideFirst && leg.count == 1;
     to_[(single != kTurned) ? -1 : -2] = static_cast<Index>(leg.corner);
   }
   /// The half of a cell that has the corner: cut_half() of its legs. One further vertex at most on
   /// either leg is usual: then three triangles are written, of which those count that are there.
   void corner_half(const CornerLeg& x, const CornerLeg& y) {
-    if (x.segments > 2 || y.segments > 2) [[unlikely]] {
+    if (x.count > 2 || y.count > 2) [[unlikely]] {
       *this = long_corner_half(x, y, *this);
       return;
     }
-    const std::uint32_t x1 = x.zero + x.step;
-    const std::uint32_t y1 = y.zero + y.step;
-    const std::uint32_t x2 = x1 + x.step;
-    const std::uint32_t y2 = y1 + y.step;
+    const std::uint32_t x1 = x.vertex(1);
+    const std::uint32_t y1 = y.vertex(1);
+    const std::uint32_t x2 = x.vertex(2);
+    const std::uint32_t y2 = y.vertex(2);
     put(0, x.corner, x1, y1);
-    put(1, x1, x.segments == 2 ? x2 : y2, y1);
+    put(1, x1, x.count == 2 ? x2 : y2, y1);
     put(2, x2, y2, y1);
-    to_ += std::size_t{3} * (x.segments + y.segments - 1);
+    to_ += std::size_t{3} * (x.count + y.count - 1);
   }
 
   /// n cells side by side: a pattern, whose numbers become larger by `base`.
@@ -95,7 +108,7 @@ private:
   /// It takes itself by value, since an object whose address is known elsewhere stays in memory.
   __attribute__((noinline)) static FanWriter long_corner_half(const CornerLeg& x,
                                                               const CornerLeg& y, FanWriter out) {
-    cut_half(LinearLeg(x), LinearLeg(y), out);
+    cut_half(x, y, out);
     return out;
   }
   void put(std::size_t k, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {

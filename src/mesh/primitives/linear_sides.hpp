@@ -1,5 +1,5 @@
-// The sides of usual patches, whose vertices have numbers that follow each other. Rates are up to
-// 63. A single row or column of cells may have any rate, and up to 64 segments on a cell's side.
+// The sides of usual patches, whose vertices have numbers that follow each other. Rates are from 2
+// to 63.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,11 @@ struct LinearSide {
   std::uint32_t zero = 0; ///< the number that point 0 would have if it were not a corner
   std::uint32_t step = 0; ///< 1 or -1
   std::uint32_t segments = 0;
-  std::uint32_t end[2] = {0, 0}; ///< the corners
-  /// Segments from each of the patch's points to the next: a table, or, for a single row or column
-  /// of cells, a walk.
-  const std::uint8_t* counts = nullptr;
-  UnionWalk walk;
+  std::uint32_t end[2] = {0, 0};        ///< the corners
+  const std::uint8_t* counts = nullptr; ///< segments from each of the patch's points to the next
 
   /// The vertex of a point that is no corner.
   [[nodiscard]] std::uint32_t at(std::uint32_t place) const noexcept { return zero + place * step; }
-  [[nodiscard]] std::uint32_t vertex(std::uint32_t place) const noexcept {
-    return place == 0 ? end[0] : place == segments ? end[1] : at(place);
-  }
 };
 
 /// The sides of one patch after the other.
@@ -37,12 +31,9 @@ public:
   bool move_to(std::size_t patch) {
     const std::uint32_t nu = mesh_.nu[patch];
     const std::uint32_t nv = mesh_.nv[patch];
-    if (nu == 1 || nv == 1) {
-      const bool is_closed =
-          (nu == 1 && is_one_edge(patch, 2)) || (nv == 1 && is_one_edge(patch, 0));
-      return read_all<false>(patch, nu, nv) && !is_closed;
-    }
-    return nu <= UnionCounts::kMost && nv <= UnionCounts::kMost && read_all<true>(patch, nu, nv);
+    return nu > 1 && nv > 1 && nu <= UnionCounts::kMost && nv <= UnionCounts::kMost &&
+           read<0>(patch, nu) && read<1>(patch, nu) && read<2>(patch, nv) && read<3>(patch, nv) &&
+           !is_folded(patch);
   }
   [[nodiscard]] const LinearSide& operator[](std::size_t side) const { return sides_[side]; }
 
@@ -55,20 +46,8 @@ private:
     };
     return same(0, 2) || same(0, 3) || same(1, 2) || same(1, 3);
   }
-  /// Whether that holds for a side and the opposite one, with a single cell between them.
-  [[nodiscard]] bool is_one_edge(std::size_t patch, std::size_t side) const {
-    const Side* const first = &topology_.sides[kPatchEdges * patch + side];
-    return first[0].edge() == first[1].edge();
-  }
-
-  template <bool kTables>
-  __attribute__((always_inline)) bool read_all(std::size_t patch, std::uint32_t nu,
-                                               std::uint32_t nv) {
-    return read<0, kTables>(patch, nu) && read<1, kTables>(patch, nu) &&
-           read<2, kTables>(patch, nv) && read<3, kTables>(patch, nv) && !is_folded(patch);
-  }
   /// Reads side k. It is compiled for each, so that the compiler knows where things are.
-  template <std::size_t k, bool kTables>
+  template <std::size_t k>
   __attribute__((always_inline)) bool read(std::size_t patch, std::uint32_t rate) {
     const std::size_t number = kPatchEdges * patch + k;
     const Side side = topology_.sides[number];
@@ -78,7 +57,7 @@ private:
     const std::uint32_t edge = side.edge();
     const auto all = topology_.sides_of(edge);
     const std::uint32_t other = all.size() == 1 ? rate : mesh_.rate(all[all[0] == number ? 1 : 0]);
-    if (all.size() > 2 || other > (kTables ? 1 : rate) * UnionCounts::kMost) {
+    if (all.size() > 2 || other > UnionCounts::kMost) {
       return false;
     }
     LinearSide& to = sides_[k];
@@ -88,11 +67,7 @@ private:
     to.zero = mesh_.edge_first[edge] + (to.segments & backwards) - 1;
     to.end[0] = mesh_.corners[kPatchCorners * patch + kSideCorners[k][0]];
     to.end[1] = mesh_.corners[kPatchCorners * patch + kSideCorners[k][1]];
-    if constexpr (kTables) {
-      to.counts = counts_.of(rate, other);
-    } else {
-      to.walk = UnionWalk(rate, other);
-    }
+    to.counts = counts_.of(rate, other);
     return true;
   }
 

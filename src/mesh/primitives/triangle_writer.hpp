@@ -1,11 +1,10 @@
-// The triangles of patches, one after the other: usual ones by PlainPatch, RegularPatch and
-// StripPatch, all others by CellCutter.
+// The triangles of patches, one after the other: usual ones by PlainPatch and RegularPatch, all
+// others by CellCutter.
 #pragma once
 
 #include "src/mesh/primitives/plain_patch.hpp"
 #include "src/mesh/primitives/primitive_sinks.hpp"
 #include "src/mesh/primitives/regular_patch.hpp"
-#include "src/mesh/primitives/strip_patch.hpp"
 
 namespace simdbezier::detail {
 
@@ -53,9 +52,6 @@ private:
   }
   template <bool kTurned>
   Index* write_regular(std::size_t patch, Index* to) {
-    if (mesh_.nu[patch] == 1 || mesh_.nv[patch] == 1) {
-      return StripPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
-    }
     RowPatterns<Index>& patterns = patterns_[kTurned ? 1 : 0];
     // Asked a mesh: some patches of others are plain as well, but which ones is hard to predict.
     if (!mesh_.has_unions) {

@@ -7,31 +7,6 @@
 
 namespace simdbezier::detail {
 
-/// From each of a side's points to the next one: how many segments there are between them on an
-/// edge that has another rate as well.
-class UnionWalk {
-public:
-  UnionWalk() = default;
-  UnionWalk(std::uint32_t rate, std::uint32_t other)
-      : rate_(rate), whole_(other / rate), part_(other % rate) {}
-
-  /// Segments end at the other side's points behind this point, up to the next one, and at the
-  /// next one itself where it is none of those. `rest_` / rate: how far the next one then lies
-  /// behind a point of the other side, in segments of that side.
-  std::uint32_t next() {
-    rest_ += part_;
-    const std::uint32_t carry = rest_ >= rate_ ? 1 : 0;
-    rest_ -= carry * rate_;
-    return whole_ + carry + (rest_ != 0 ? 1 : 0);
-  }
-
-private:
-  std::uint32_t rate_ = 1;
-  std::uint32_t whole_ = 0;
-  std::uint32_t part_ = 0;
-  std::uint32_t rest_ = 0;
-};
-
 /// One thread's tables for small rates.
 class UnionCounts {
 public:
@@ -53,10 +28,15 @@ private:
     fill(rate, other, pairs.get() + other * rate);
     return pairs.get() + other * rate;
   }
+  /// Segments end at the other side's points behind one of this side, up to the next one, and at
+  /// the next one itself where it is none of those. `rest` / rate: how far the next one then lies
+  /// behind a point of the other side, in segments of that side.
   static void fill(std::uint32_t rate, std::uint32_t other, std::uint8_t* counts) {
-    UnionWalk walk(rate, other);
+    std::uint32_t rest = 0;
     for (std::uint32_t i = 0; i < rate; ++i) {
-      counts[i] = static_cast<std::uint8_t>(walk.next());
+      const std::uint32_t all = rest + other;
+      rest = all % rate;
+      counts[i] = static_cast<std::uint8_t>(all / rate + (rest != 0 ? 1 : 0));
     }
   }
 
