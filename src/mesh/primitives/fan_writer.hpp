@@ -6,7 +6,6 @@
 
 #include "src/mesh/layout/cells.hpp"
 #include "src/mesh/primitives/cell_patterns.hpp"
-#include "src/mesh/primitives/rung.hpp"
 
 namespace simdbezier::detail {
 
@@ -25,6 +24,15 @@ struct CornerLeg {
   [[nodiscard]] std::uint32_t far() const { return zero + count * step; }
 };
 
+/// A vertex of a side and one of the row of inner points next to it. A side and that row are like
+/// the rails of a ladder: each cell lies between two rungs. It is a fan of the side's segments
+/// around the inner vertex of one rung, and a triangle of both vertices of the other rung and this
+/// inner vertex.
+struct Rung {
+  std::uint32_t side;
+  std::uint32_t inner;
+};
+
 /// Writes triangles with room behind them.
 template <typename Index, bool kTurned>
 class FanWriter {
@@ -38,35 +46,23 @@ public:
   }
   /// A cell of n segments of a side between two rungs.
   ///
-  /// kSideFirst: see FanOrder. kFanFirst: whether the fan, which begins at `start`, comes before
-  /// the other triangle. descending: the side's numbers from `start` to `far`.
+  /// kSideFirst: whether the side is the first leg of the fan's half, for cut_half(), or the
+  /// second. kFanFirst: whether the fan, which begins at `start`, comes before the other triangle.
+  /// step: from one of the side's numbers to the next, from `start` to `far`.
   template <bool kSideFirst, bool kFanFirst>
-  void cell(const Rung<Index>& start, const Rung<Index>& far, bool descending, std::uint32_t n) {
-    // What comes first is written first, because there are numbers behind it that do not count.
-    constexpr bool kEndsAtSide = FanOrder{kSideFirst, kTurned}.ends_at_side();
+  void cell(const Rung& start, const Rung& far, std::uint32_t step, std::uint32_t n) {
     if (!kFanFirst) {
-      Rung<Index>::template put_other<kEndsAtSide>(start, far, to_);
-      to_ += 3;
+      other<kSideFirst>(start, far);
     }
-    fan<kSideFirst>(start, descending, n);
+    fan<kSideFirst>(start, step, n);
     if (kFanFirst) {
-      Rung<Index>::template put_other<kEndsAtSide>(start, far, to_);
-      to_ += 3;
+      other<kSideFirst>(start, far);
     }
-  }
-  /// n segments of a side around the inner vertex of a rung, which the fan begins at.
-  template <bool kSideFirst>
-  void fan(const Rung<Index>& start, bool descending, std::uint32_t n) {
-    start.template put_fan<kSideFirst, kTurned>(descending, to_);
-    if (n > Rung<Index>::kTogether) [[unlikely]] {
-      put_long_fan<kSideFirst>(start.side(), descending ? ~0U : 1, n, start.inner(), *this);
-    }
-    to_ += std::size_t{3} * n;
   }
   /// The fan of a leg in a corner around the inner vertex, towards the corner.
   template <bool kSideFirst>
   void corner_fan(const CornerLeg& leg, std::uint32_t inner) {
-    fan<kSideFirst>(Rung<Index>(leg.far(), inner), leg.step == 1, leg.count);
+    fan<kSideFirst>({leg.far(), inner}, 0 - leg.step, leg.count);
     const bool single = !kSideFirst && leg.count == 1;
     to_[(single != kTurned) ? -1 : -2] = static_cast<Index>(leg.corner);
   }
@@ -93,19 +89,39 @@ public:
   }
 
 private:
-  /// The triangles behind those in registers. It takes the writer by value, since an object whose
-  /// address is known elsewhere stays in memory.
+  /// The triangle of a cell that is not in its fan.
   template <bool kSideFirst>
-  __attribute__((noinline)) static void put_long_fan(std::uint32_t first, std::uint32_t step,
-                                                     std::uint32_t n, std::uint32_t apex,
-                                                     FanWriter out) {
-    for (std::uint32_t k = Rung<Index>::kTogether; k < n; ++k) {
-      const std::uint32_t a = first + k * step;
-      const std::uint32_t b = a + step;
-      kSideFirst ? out.put(k, a, b, apex) : out.put(k, apex, b, a);
+  void other(const Rung& start, const Rung& far) {
+    kSideFirst ? triangle(far.inner, start.inner, far.side)
+               : triangle(far.inner, far.side, start.inner);
+  }
+  /// n segments of a side around the inner vertex of a rung, which the fan begins at. Two are
+  /// written whether there are as many or not: a branch would be anyone's guess.
+  template <bool kSideFirst>
+  void fan(const Rung& start, std::uint32_t step, std::uint32_t n) {
+    const std::uint32_t next = start.side + step;
+    // Only the first triangle has the corner of the half, and begins there.
+    kSideFirst ? put(0, start.side, next, start.inner) : put(0, start.side, start.inner, next);
+    put_in_fan<kSideFirst>(1, start, step);
+    if (n > 2) [[unlikely]] {
+      put_long_fan<kSideFirst>(start, step, n, *this);
+    }
+    to_ += std::size_t{3} * n;
+  }
+  template <bool kSideFirst>
+  void put_in_fan(std::uint32_t k, const Rung& start, std::uint32_t step) const {
+    const std::uint32_t a = start.side + k * step;
+    kSideFirst ? put(k, a, a + step, start.inner) : put(k, start.inner, a + step, a);
+  }
+  /// These two take the writer by value, since an object whose address is known elsewhere stays in
+  /// memory.
+  template <bool kSideFirst>
+  __attribute__((noinline)) static void put_long_fan(Rung start, std::uint32_t step,
+                                                     std::uint32_t n, FanWriter out) {
+    for (std::uint32_t k = 2; k < n; ++k) {
+      out.put_in_fan<kSideFirst>(k, start, step);
     }
   }
-  /// It takes itself by value, since an object whose address is known elsewhere stays in memory.
   __attribute__((noinline)) static FanWriter long_corner_half(const CornerLeg& x,
                                                               const CornerLeg& y, FanWriter out) {
     cut_half(x, y, out);
