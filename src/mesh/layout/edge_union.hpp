@@ -52,6 +52,21 @@ inline void include_rate(EdgeRates& rates, std::uint32_t rate) {
   }
 }
 
+/// Calls visit(i, n) for a side's points i = 0 .. rate - 1: n segments lead from one to the next on
+/// an edge that has another rate as well.
+template <typename Visit>
+void walk_segments(std::uint32_t rate, std::uint32_t other, const Visit& visit) {
+  // Segments end at the other side's points behind this point, up to the next one, and at the next
+  // one itself where it is none of those. rest / rate: how far the next one then lies behind a
+  // point of the other side, in segments of that side.
+  std::uint32_t rest = 0;
+  for (std::uint32_t i = 0; i < rate; ++i) {
+    const std::uint32_t all = rest + other;
+    rest = all % rate;
+    visit(i, all / rate + (rest != 0 ? 1 : 0));
+  }
+}
+
 namespace unions {
 
 /// walk_union() in the usual case: two sides of different rates.
@@ -128,21 +143,10 @@ inline void union_places(std::span<const std::uint32_t> rates, std::uint32_t rat
     return;
   }
   if (rates.size() == 2) {
-    // i own ones and those of the other side, j < i other / rate, lie before i/rate; common ones
-    // count once: i common / rate of them, rounded up like the others.
     const std::uint32_t other = rates[rates[0] == rate ? 1 : 0];
-    const std::uint32_t common = std::gcd(rate, other);
-    std::uint32_t others = 0;
-    std::uint32_t commons = 0;
-    for (std::uint32_t i = 0; i <= rate; ++i) {
-      while (std::uint64_t{others} * rate < std::uint64_t{i} * other) {
-        ++others;
-      }
-      while (std::uint64_t{commons} * rate < std::uint64_t{i} * common) {
-        ++commons;
-      }
-      places[i] = i + others - commons;
-    }
+    places[0] = 0;
+    walk_segments(rate, other,
+                  [&](std::uint32_t i, std::uint32_t n) { places[i + 1] = places[i] + n; });
     return;
   }
   const auto own =

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "src/mesh/layout/edge_union.hpp"
+
 namespace simdbezier::detail {
 
 /// One thread's tables for small rates.
@@ -25,19 +27,11 @@ private:
     if (pairs == nullptr) {
       pairs = std::make_unique<std::uint8_t[]>((kMost + 1) * rate);
     }
-    fill(rate, other, pairs.get() + other * rate);
-    return pairs.get() + other * rate;
-  }
-  /// Segments end at the other side's points behind one of this side, up to the next one, and at
-  /// the next one itself where it is none of those. `rest` / rate: how far the next one then lies
-  /// behind a point of the other side, in segments of that side.
-  static void fill(std::uint32_t rate, std::uint32_t other, std::uint8_t* counts) {
-    std::uint32_t rest = 0;
-    for (std::uint32_t i = 0; i < rate; ++i) {
-      const std::uint32_t all = rest + other;
-      rest = all % rate;
-      counts[i] = static_cast<std::uint8_t>(all / rate + (rest != 0 ? 1 : 0));
-    }
+    std::uint8_t* const counts = pairs.get() + other * rate;
+    walk_segments(rate, other, [&](std::uint32_t i, std::uint32_t n) {
+      counts[i] = static_cast<std::uint8_t>(n);
+    });
+    return counts;
   }
 
   /// The counts with each other rate, one after the other, 0 where they are not yet known.
