@@ -1,7 +1,8 @@
 // Hands the cells of a patch to a sink, which makes of them what it likes:
 //     sink.cell(corners, falling)   a cell with four different vertices, two triangles
-//     sink.cells(first, steps, n, falling)   n of them side by side
 //     sink.triangle(a, b, c)        of any other cell, three different vertices, counter-clockwise
+//     sink.cells(first, steps, n, falling)   n cells side by side, where a sink has a better way
+//                                   than one by one
 #pragma once
 
 #include "src/mesh/layout/patch_boundary.hpp"
@@ -78,12 +79,16 @@ struct VertexSteps {
   }
 };
 
-/// The cells of a row one by one, for sinks that have no better way.
+/// Some cells of a row.
 template <typename Sink>
 void put_cells(CellCorners first, const VertexSteps& steps, std::uint32_t count, bool falling,
                Sink& sink) {
-  for (; count > 0; --count, steps.advance(first)) {
-    sink.cell(first, falling);
+  if constexpr (requires { sink.cells(first, steps, count, falling); }) {
+    sink.cells(first, steps, count, falling);
+  } else {
+    for (; count > 0; --count, steps.advance(first)) {
+      sink.cell(first, falling);
+    }
   }
 }
 
@@ -233,8 +238,8 @@ private:
         const std::uint32_t last = std::min(end, zones_.end_of_zone(i));
         const std::uint32_t b = below.zero + i * below.step;
         const std::uint32_t a = above.zero + i * above.step;
-        sink.cells({{b, b + below.step, a, a + above.step}}, {below.step, above.step}, last - i,
-                   zones_.falling(i, j));
+        put_cells({{b, b + below.step, a, a + above.step}}, {below.step, above.step}, last - i,
+                  zones_.falling(i, j), sink);
         i = last;
       }
     }

@@ -142,10 +142,6 @@ private:
     void cell(const CellCorners& c, bool falling) {
       put_halves(c, falling, [&](auto... vertices) { triangle(vertices...); });
     }
-    void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
-               bool falling) {
-      put_cells(first, steps, count, falling, *this);
-    }
   };
 
   MeshData& mesh_;

@@ -21,10 +21,6 @@ public:
     make_room(1, 3);
     put(a, b, c);
   }
-  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
-             bool falling) {
-    put_cells(first, steps, count, falling, *this);
-  }
   void cell(const CellCorners& c, bool falling) {
     make_room(2, 4);
     put_halves(c, falling, [this](auto... vertices) { put(vertices...); });

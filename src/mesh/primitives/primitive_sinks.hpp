@@ -90,10 +90,6 @@ public:
     indices_.put(first, turned_ ? fourth : second, third, turned_ ? second : fourth);
     sizes_.put(4);
   }
-  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
-             bool falling) {
-    put_cells(first, steps, count, falling, *this);
-  }
   [[nodiscard]] std::size_t indices() const { return indices_.count(); }
   [[nodiscard]] std::size_t polygons() const { return sizes_.count(); }
 
@@ -134,10 +130,6 @@ public:
     falling_ = falling;
     last_[0] = c.at[1];
     last_[1] = c.at[3];
-  }
-  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
-             bool falling) {
-    put_cells(first, steps, count, falling, *this);
   }
   void end_strip() {
     if (open_) {

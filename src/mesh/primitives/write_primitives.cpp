@@ -18,14 +18,17 @@ namespace {
 
 /// Calls visit(patch, cutter, turned) for some patches, in parallel.
 template <typename Visit>
-Status for_cells(const MeshLayout& layout, std::size_t first, std::size_t patches, int threads,
+Status for_cells(const MeshLayout& layout, const PatchRange& patches, int threads,
                  const Visit& visit) noexcept {
+  if (patches.count == 0) {
+    return Status::ok;
+  }
   const MeshData& mesh = *layout.data();
   std::atomic<bool> failed = false;
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     try {
       PatchBoundary boundary(mesh);
-      for (std::size_t patch = first + begin; patch < first + end; ++patch) {
+      for (std::size_t patch = patches.first + begin; patch < patches.first + end; ++patch) {
         boundary.move_to(patch);
         visit(patch, CellCutter(mesh, boundary, patch), mesh.topology.is_turned(patch));
       }
@@ -33,23 +36,28 @@ Status for_cells(const MeshLayout& layout, std::size_t first, std::size_t patche
       failed = true;
     }
   };
-  divide_work(patches, 1000, threads, body);
+  divide_work(patches.count, 1000, threads, body);
   return failed ? Status::out_of_memory : Status::ok;
 }
-template <typename Visit>
-Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noexcept {
-  return for_cells(layout, 0, layout.data()->patches(), threads, visit);
+
+void add(const PolygonSize& before, PolygonSize& sum) {
+  sum.polygons += before.polygons;
+  sum.indices += before.indices;
+}
+void add(std::size_t before, std::size_t& sum) { sum += before; }
+void add(const ClusterSize& before, ClusterSize& sum) {
+  sum.clusters += before.clusters;
+  sum.vertices += before.vertices;
+  sum.triangles += before.triangles;
 }
 
-/// The running sums of patches' sizes: sizes[k] is what stands before the k-th, the last one all.
-template <typename Size, typename Count, typename Add>
+/// The running sums of patches' sizes, count(patch, cutter, turned): sizes[k] is what stands before
+/// the k-th, the last one all.
+template <typename Size, typename Count>
 Status sum_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
-                 std::vector<Size>& sizes, const Count& count, const Add& add) {
+                 std::vector<Size>& sizes, const Count& count) {
   sizes.assign(patches.count + 1, Size{});
-  if (patches.count == 0) {
-    return Status::ok;
-  }
-  const Status status = for_cells(layout, patches.first, patches.count, threads,
+  const Status status = for_cells(layout, patches, threads,
                                   [&](std::size_t patch, const CellCutter& cells, bool turned) {
                                     sizes[patch - patches.first + 1] = count(patch, cells, turned);
                                   });
@@ -59,57 +67,35 @@ Status sum_sizes(const MeshLayout& layout, const PatchRange& patches, int thread
   return status;
 }
 
-template <typename Size, typename Count, typename Add>
-Status sum_sizes(const MeshLayout& layout, int threads, std::vector<Size>& sizes,
-                 const Count& count, const Add& add) {
-  PatchRange all;
-  static_cast<void>(all.resolve(layout, {}));
-  return sum_sizes(layout, all, threads, sizes, count, add);
-}
-
 Status polygon_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
                      std::vector<PolygonSize>& sizes) {
-  return sum_sizes(
-      layout, patches, threads, sizes,
-      [](std::size_t, const CellCutter& cells, bool turned) {
-        PolygonSink<std::uint32_t> sink(nullptr, nullptr, turned);
-        cells.cut(sink);
-        return PolygonSize{sink.polygons(), sink.indices()};
-      },
-      [](const PolygonSize& before, PolygonSize& sum) {
-        sum.polygons += before.polygons;
-        sum.indices += before.indices;
-      });
+  return sum_sizes(layout, patches, threads, sizes, [](auto, const CellCutter& cells, bool turned) {
+    PolygonSink<std::uint32_t> sink(nullptr, nullptr, turned);
+    cells.cut(sink);
+    return PolygonSize{sink.polygons(), sink.indices()};
+  });
 }
 
 Status strip_sizes(const MeshLayout& layout, int threads, std::vector<std::size_t>& sizes) {
-  return sum_sizes(
-      layout, threads, sizes,
-      [](std::size_t, const CellCutter& cells, bool turned) {
-        StripSink<std::uint32_t> sink(nullptr, turned);
-        cells.cut(sink);
-        sink.end_strip();
-        return sink.indices();
-      },
-      [](std::size_t before, std::size_t& sum) { sum += before; });
+  return sum_sizes(layout, PatchRange(layout), threads, sizes,
+                   [](auto, const CellCutter& cells, bool turned) {
+                     StripSink<std::uint32_t> sink(nullptr, turned);
+                     cells.cut(sink);
+                     sink.end_strip();
+                     return sink.indices();
+                   });
 }
 
 constexpr std::uint32_t kClusterWidth = 8;
 
 Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterSize>& sizes) {
-  return sum_sizes(
-      layout, threads, sizes,
-      [](std::size_t patch, const CellCutter& cells, bool turned) {
-        ClusterSink sink(nullptr, {}, static_cast<std::uint32_t>(patch), turned);
-        cells.cut_in_bands(kClusterWidth, sink);
-        sink.end_cluster();
-        return sink.size();
-      },
-      [](const ClusterSize& before, ClusterSize& sum) {
-        sum.clusters += before.clusters;
-        sum.vertices += before.vertices;
-        sum.triangles += before.triangles;
-      });
+  return sum_sizes(layout, PatchRange(layout), threads, sizes,
+                   [](std::size_t patch, const CellCutter& cells, bool turned) {
+                     ClusterSink sink(nullptr, {}, static_cast<std::uint32_t>(patch), turned);
+                     cells.cut_in_bands(kClusterWidth, sink);
+                     sink.end_cluster();
+                     return sink.size();
+                   });
 }
 
 } // namespace
@@ -145,10 +131,10 @@ Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
   if (status == Status::ok && sizes.size() < before.back().polygons) {
     status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
   }
-  if (status != Status::ok || before.back().polygons == 0) {
+  if (status != Status::ok) {
     return status;
   }
-  return detail::for_cells(layout, range.first, range.count, options.threads,
+  return detail::for_cells(layout, range, options.threads,
                            [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
                              const PolygonSize& place = before[patch - range.first];
                              detail::PolygonSink<Index> sink(indices.data() + place.indices,
@@ -177,10 +163,10 @@ Status write_strips(const MeshLayout& layout, std::span<Index> indices,
   if (status == Status::ok) {
     status = detail::check_indices<Index>(layout, indices, before.back());
   }
-  if (status != Status::ok || before.back() == 0) {
+  if (status != Status::ok) {
     return status;
   }
-  return detail::for_cells(layout, options.threads,
+  return detail::for_cells(layout, detail::PatchRange(layout), options.threads,
                            [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
                              detail::StripSink<Index> sink(indices.data() + before[patch], turned);
                              cells.cut(sink);
@@ -220,7 +206,7 @@ Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
       all.triangles > std::numeric_limits<std::uint32_t>::max()) {
     return Status::size_overflow;
   }
-  return detail::for_cells(layout, options.threads,
+  return detail::for_cells(layout, detail::PatchRange(layout), options.threads,
                            [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
                              detail::ClusterSink sink(&out, before[patch],
                                                       static_cast<std::uint32_t>(patch), turned);
