@@ -1,8 +1,7 @@
 // Numbers of vertices in the mesh of a whole model, and of single ones; see mesh_layout.hpp.
 #include <simdbezier/mesh_layout.hpp>
 
-#include <algorithm>
-
+#include "src/calls/call.hpp"
 #include "src/mesh/layout/mesh_data.hpp"
 
 namespace simdbezier {
@@ -11,10 +10,8 @@ namespace {
 
 /// Whether a mesh has these patches; a range to the end gets its count.
 bool has_range(const MeshData* mesh, SetRange& own) noexcept {
-  const std::size_t patches = mesh == nullptr ? 0 : mesh->patches();
-  own.count =
-      own.count == SetRange::kToTheEnd && own.first <= patches ? patches - own.first : own.count;
-  return own.first <= patches && own.count <= patches - own.first;
+  const SetRange given = own;
+  return resolve_range(given, mesh == nullptr ? 0 : mesh->patches(), own.first, own.count);
 }
 
 /// Calls visit(the member of PatchVertices, where its vertices begin) for what a patch owns, in the

@@ -217,49 +217,21 @@ FourEdges edges_of(const TopologyData& topology, std::size_t patch) {
   return edges;
 }
 
-/// Whether another patch has the same four edges, or may have: one would be at each of the edges,
-/// and so at the one with the fewest sides. Patches all of whose sides are points may be the same.
-bool may_be_repeated(const TopologyData& topology, std::size_t patch) {
-  constexpr std::size_t kMostCompared = 64;
-  std::span<const std::uint32_t> fewest;
-  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-    if (!topology.sides[side].collapsed()) {
-      const auto sides = topology.sides_of(topology.sides[side].edge());
-      fewest = fewest.empty() || sides.size() < fewest.size() ? sides : fewest;
-    }
-  }
-  if (fewest.empty() || fewest.size() > kMostCompared) {
-    return true;
-  }
-  const FourEdges own = edges_of(topology, patch);
-  return std::any_of(fewest.begin(), fewest.end(), [&](std::uint32_t side) {
-    return side / kPatchEdges != patch && edges_of(topology, side / kPatchEdges) == own;
-  });
-}
-
 } // namespace
 
 template <typename S>
 void mark_repeated(const NetCorners<S>& nets, std::span<const std::uint32_t> candidates,
                    TopologyData& topology) {
   // Only patches with the same four edges can be the same.
-  struct EdgesOf {
-    FourEdges edges;
-    std::uint32_t patch;
-  };
-  std::vector<EdgesOf> patches;
+  std::vector<std::pair<FourEdges, std::uint32_t>> patches;
   for (const std::uint32_t patch : candidates) {
-    if (may_be_repeated(topology, patch)) {
-      patches.push_back({edges_of(topology, patch), patch});
-    }
+    patches.emplace_back(edges_of(topology, patch), patch);
   }
-  sort_range(patches.begin(), patches.end(), [](const EdgesOf& a, const EdgesOf& b) {
-    return a.edges != b.edges ? a.edges < b.edges : a.patch < b.patch;
-  });
+  sort_range(patches.begin(), patches.end());
   for (std::size_t begin = 0, end = 0; begin < patches.size(); begin = end) {
     std::vector<std::uint32_t> group;
-    for (end = begin; end < patches.size() && patches[end].edges == patches[begin].edges; ++end) {
-      group.push_back(patches[end].patch);
+    for (end = begin; end < patches.size() && patches[end].first == patches[begin].first; ++end) {
+      group.push_back(patches[end].second);
     }
     mark_repeated_of(nets, group, topology);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <new>
 
+#include "src/calls/call.hpp"
 #include "src/mesh/topology/corner_joiner.hpp"
 #include "src/mesh/topology/edge_numbers.hpp"
 #include "src/mesh/topology/entanglement.hpp"
@@ -121,19 +122,14 @@ TopologyCounts Topology::counts() const noexcept {
 
 TopologyCounts Topology::counts(SetRange patches) const noexcept {
   TopologyCounts counts;
-  if (data_ == nullptr || patches.first > data_->patches()) {
-    return counts;
+  std::size_t first = 0;
+  if (data_ == nullptr ||
+      !detail::resolve_range(patches, data_->patches(), first, counts.patches)) {
+    return {};
   }
-  patches.count = std::min(patches.count, patches.count == SetRange::kToTheEnd
-                                              ? data_->patches() - patches.first
-                                              : patches.count);
-  if (patches.count > data_->patches() - patches.first) {
-    return counts;
-  }
-  counts.patches = patches.count;
   counts.snapped_sides = data_->counts.snapped_sides;
   counts.orientable = data_->counts.orientable;
-  for (std::size_t p = patches.first; p < patches.first + patches.count; ++p) {
+  for (std::size_t p = first; p < first + counts.patches; ++p) {
     counts.repeated_patches += data_->is_repeated(p) ? 1 : 0;
     for (std::size_t side = kPatchEdges * p; side < kPatchEdges * (p + 1); ++side) {
       counts.collapsed_sides += data_->sides[side].collapsed() ? 1 : 0;
