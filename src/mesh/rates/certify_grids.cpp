@@ -2,6 +2,7 @@
 #include <simdbezier/rates.hpp>
 
 #include <new>
+#include <numeric>
 
 #include "src/mesh/rates/patch_groups.hpp"
 #include "src/nets/net_call.hpp"
@@ -26,7 +27,9 @@ Report certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<do
     const auto bounds = group.bound().rising_bounds(cells);
     group.for_lanes([&](std::size_t lane, std::size_t patch) { deviation[patch] += bounds[lane]; });
   };
-  return visit_groups(nets, PatchList(nets.count), all_open, isa, threads, visit);
+  std::vector<std::uint32_t> patches(nets.count);
+  std::iota(patches.begin(), patches.end(), 0U);
+  return visit_groups<S>(nets, patches, all_open, isa, threads, visit);
 }
 
 } // namespace

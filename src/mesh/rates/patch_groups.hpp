@@ -13,28 +13,11 @@
 
 namespace simdbezier::detail {
 
-/// Patches of one view: all, or those with given numbers.
-class PatchList {
-public:
-  explicit PatchList(std::size_t count) : count_(count) {}
-  explicit PatchList(std::span<const std::uint32_t> numbers)
-      : numbers_(numbers.data()), count_(numbers.size()) {}
-
-  [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] std::size_t operator[](std::size_t k) const {
-    return numbers_ == nullptr ? k : numbers_[k];
-  }
-
-private:
-  const std::uint32_t* numbers_ = nullptr;
-  std::size_t count_;
-};
-
 /// Some patches in the lanes of a group whose bounds are known.
 class PatchGroup {
 public:
   /// patches: those from `begin` on are in lanes 0, 1, …; found: one status a lane.
-  PatchGroup(const GroupBound& bound, const PatchList& patches, std::size_t begin,
+  PatchGroup(const GroupBound& bound, std::span<const std::uint32_t> patches, std::size_t begin,
              std::span<Status> found)
       : bound_(bound), patches_(patches), begin_(begin), found_(found) {}
 
@@ -58,17 +41,17 @@ public:
 
 private:
   const GroupBound& bound_;
-  const PatchList& patches_;
+  std::span<const std::uint32_t> patches_;
   std::size_t begin_;
   std::span<Status> found_;
   std::size_t first_ = 0;
 };
 
-/// Calls visit(group) for patches of a view, some at a time, in parallel; the report names the
+/// Calls visit(group) for these patches of a view, some at a time, in parallel; the report names the
 /// first of them at fault. flags_of(patch): its RateFlags.
 template <typename S, typename FlagsOf, typename Visit>
-Report visit_groups(const ControlNets<S>& nets, const PatchList& patches, const FlagsOf& flags_of,
-                    Isa isa, int threads, const Visit& visit) {
+Report visit_groups(const ControlNets<S>& nets, std::span<const std::uint32_t> patches,
+                    const FlagsOf& flags_of, Isa isa, int threads, const Visit& visit) {
   constexpr std::size_t kNanoseconds = 2000; // a patch
   std::vector<Status> found(patches.size(), Status::ok);
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {

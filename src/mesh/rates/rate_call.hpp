@@ -66,7 +66,7 @@ public:
   [[nodiscard]] std::vector<CellCounts> rates() const {
     std::vector<CellCounts> all(out_.cells_u.size());
     for (std::size_t patch = 0; patch < all.size(); ++patch) {
-      all[patch] = {out_.cells_u[patch], out_.cells_v[patch]};
+      all[patch] = rates(patch);
     }
     return all;
   }
@@ -76,16 +76,15 @@ public:
   Report keep(const std::vector<CellCounts>& before) {
     const auto is_open = [&](std::size_t patch, bool) {
       const CellCounts& old = before[patch];
-      const CellCounts now{out_.cells_u[patch], out_.cells_v[patch]};
+      const CellCounts now = rates(patch);
       const bool covers = old.nu >= now.nu && old.nv >= now.nv;
       return old.nu <= most_ && old.nv <= most_ && (old.nu != now.nu || old.nv != now.nv) &&
              old.product() >= now.product() && old.product() <= options_.keep * now.product() &&
              (covers || !measures());
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
-      Lanes<CellCounts> cells;
-      cells.fill({1, 1});
-      open.for_lanes([&](std::size_t lane, std::size_t patch) { cells[lane] = before[patch]; });
+      const auto cells =
+          lanes_of(open, CellCounts{1, 1}, [&](auto patch) { return before[patch]; });
       const Lanes<CertifiedCells> certified = open.bound().certify(cells, tolerances(open));
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
         if (certified[lane].bound + error(patch) <= wanted(patch)) {
@@ -104,15 +103,7 @@ public:
       return !kernel || measures() || has_corner(patch) || out_.cells_u[patch] == kUndecided;
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
-      Lanes<double> t;
-      t.fill(1);
-      open.for_lanes([&](std::size_t lane, std::size_t patch) {
-        if (const double left = tolerance(patch); left > 0) {
-          t[lane] = left;
-        } else {
-          open.fail(lane, Status::bad_tolerance);
-        }
-      });
+      const Lanes<double> t = tolerances(open);
       Lanes<CertifiedCells> chosen = open.bound().choose(t, most_);
       if (measures()) {
         Lanes<CellCounts> cells;
@@ -195,6 +186,9 @@ private:
   [[nodiscard]] bool measures() const {
     return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_degrees);
   }
+  [[nodiscard]] CellCounts rates(std::size_t patch) const {
+    return {out_.cells_u[patch], out_.cells_v[patch]};
+  }
   [[nodiscard]] double error(std::size_t patch) const {
     return errors_.empty() ? 0 : errors_[patch];
   }
@@ -205,19 +199,25 @@ private:
     return tolerance_less(wanted(patch), error(patch));
   }
 
+  /// A value for each lane: of(patch), or another one where there is no patch.
+  template <typename Value, typename Of>
+  static Lanes<Value> lanes_of(const PatchGroup& open, const Value& other, const Of& of) {
+    Lanes<Value> lanes;
+    lanes.fill(other);
+    open.for_lanes([&](std::size_t lane, std::size_t patch) { lanes[lane] = of(patch); });
+    return lanes;
+  }
+  /// Patches fail where no tolerance is left.
   [[nodiscard]] Lanes<double> tolerances(const PatchGroup& open) const {
-    Lanes<double> t;
-    t.fill(1);
-    open.for_lanes([&](std::size_t lane, std::size_t patch) { t[lane] = tolerance(patch); });
-    return t;
+    open.for_lanes([&](std::size_t lane, std::size_t patch) {
+      if (!(tolerance(patch) > 0)) {
+        open.fail(lane, Status::bad_tolerance);
+      }
+    });
+    return lanes_of(open, 1.0, [&](std::size_t patch) { return tolerance(patch); });
   }
   [[nodiscard]] Lanes<CellCounts> rates(const PatchGroup& open) const {
-    Lanes<CellCounts> cells;
-    cells.fill({1, 1});
-    open.for_lanes([&](std::size_t lane, std::size_t patch) {
-      cells[lane] = {out_.cells_u[patch], out_.cells_v[patch]};
-    });
-    return cells;
+    return lanes_of(open, CellCounts{1, 1}, [&](auto patch) { return rates(patch); });
   }
   void put(std::size_t patch, const CertifiedCells& certified) {
     out_.cells_u[patch] = certified.cells.nu;
@@ -292,8 +292,8 @@ private:
         }
       }
       const Report report = visit_groups(
-          nets, PatchList(open), [&](std::size_t patch) { return flags_of(first + patch); },
-          run_.isa, run_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
+          nets, open, [&](std::size_t patch) { return flags_of(first + patch); }, run_.isa,
+          run_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
       if (!report) {
         return {report.status, first + report.item};
       }
