@@ -85,10 +85,10 @@ SIMDBEZIER_PART void store_samples(const V* values, ScalarOf<V>* to, std::size_t
   });
 }
 
-/// Fills the rows of a register of curves, and calls step() after every few samples.
-template <bool kTriples, typename V, std::size_t kKnownOrder, typename T, typename Step>
+/// Fills the rows of a register of curves.
+template <bool kTriples, typename V, std::size_t kKnownOrder, typename T>
 SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kKnownOrder>& curves, const T* x,
-                                    std::size_t n, const CurveRows<kTriples, T>& rows, Step step) {
+                                    std::size_t n, const CurveRows<kTriples, T>& rows) {
   for (std::size_t begin = 0; begin < n; begin += kAcrossStep) {
     const std::size_t s = begin + kAcrossStep <= n ? begin : n - kAcrossStep;
     const bool ends = any_end(x + s);
@@ -105,15 +105,14 @@ SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kKnownOrder>& curves, 
                                   SIMDBEZIER_INLINE_LAMBDA { triples[k] = value[k % 3][k / 3]; });
       store_samples<3 * kAcrossStep>(triples, rows.first[0] + 3 * s, 3 * n);
     }
-    step();
   }
 }
 
 /// Writes curves [begin, end) to rows, which must have room for whole registers of curves.
-template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
+template <std::size_t kKnownOrder, bool kTriples, typename T>
 SIMDBEZIER_INLINE void fill_across(const CurveTask<T>& task, const CurveShape& shape,
                                    std::size_t begin, std::size_t end,
-                                   const CurveRows<kTriples, T>& rows, Step step) {
+                                   const CurveRows<kTriples, T>& rows) {
   using V = vec<T>;
   using Columns = CurveColumns<V, kKnownOrder>;
   const std::size_t values = 3 * shape.channel_values();
@@ -135,7 +134,7 @@ SIMDBEZIER_INLINE void fill_across(const CurveTask<T>& task, const CurveShape& s
       prefetch_values(from + kValuesAhead<T>, kLanes<V> * stride);
     }
     const Columns curves(shape, from, stride);
-    fill_columns(curves, task.x, task.n, rows.at((first - begin) * rows.row(task.n)), step);
+    fill_columns(curves, task.x, task.n, rows.at((first - begin) * rows.row(task.n)));
   }
 }
 

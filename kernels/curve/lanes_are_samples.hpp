@@ -13,11 +13,11 @@ SIMDBEZIER_PART bool ends_alone(const CurveTask<T>& task) {
   return task.n % kLanes<V> == 1 && task.n > kLanes<V> && task.x[task.n - 1] == T(0.5);
 }
 
-/// Writes samples [first, first + a register) of curves [begin, end), and calls step() after each.
-template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
+/// Writes samples [first, first + a register) of curves [begin, end).
+template <std::size_t kKnownOrder, bool kTriples, typename T>
 SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& shape,
                                   std::size_t begin, std::size_t end, std::size_t first,
-                                  const CurveRows<kTriples, T>& rows, bool streaming, Step step) {
+                                  const CurveRows<kTriples, T>& rows) {
   using V = vec<T>;
   const CurvePoints<V, false> points(load_vector<V>(task.x + first));
   const std::size_t stride = shape.values();
@@ -37,28 +37,26 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
           shape, channel.template series<0>(Order<kKnownOrder>(shape.order())).value);
     });
     if constexpr (kTriples) {
-      store_triples(value, rows.first[0] + at, streaming);
+      store_triples(value, rows.first[0] + at, false);
     } else {
       repeat<3>([&](std::size_t c)
                     SIMDBEZIER_INLINE_LAMBDA { store_vector(rows.first[c] + at, value[c]); });
     }
-    step();
   }
 }
 
 /// Writes curves [begin, end) to rows of their own. The last register of a row may repeat samples
-/// of the one before. Where they are streamed, every register of samples is whole lines, and rows
-/// are triples.
-template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
+/// of the one before.
+template <std::size_t kKnownOrder, bool kTriples, typename T>
 SIMDBEZIER_INLINE void fill_along(const CurveTask<T>& task, const CurveShape& shape,
                                   std::size_t begin, std::size_t end,
-                                  const CurveRows<kTriples, T>& rows, bool streaming, Step step) {
+                                  const CurveRows<kTriples, T>& rows) {
   using V = vec<T>;
   const bool lone_end = ends_alone<V>(task);
   const std::size_t swept = task.n - (lone_end ? 1 : 0);
   for (std::size_t s = 0; s < swept; s += kLanes<V>) {
     const std::size_t first = s + kLanes<V> <= swept ? s : swept - kLanes<V>;
-    sweep_rows<kKnownOrder>(task, shape, begin, end, first, rows, streaming, step);
+    sweep_rows<kKnownOrder>(task, shape, begin, end, first, rows);
   }
   if (lone_end) {
     const std::size_t channel = shape.channel_values();

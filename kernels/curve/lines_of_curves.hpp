@@ -147,28 +147,30 @@ SIMDBEZIER_PART void fill_last_line(const CurveLines<kCurves, kTriples, T>& line
   }
 }
 
-/// Writes curves [begin, end) to rows.
+/// Writes the rows of all curves of a task.
 ///
 /// One place serves all streams, so that it and they stay in registers: pointers that were kept in
 /// memory and read back as a pair waited for all streaming stores before them.
 template <std::size_t kCurves, bool kTriples, typename T>
-SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shape,
-                                std::size_t begin, std::size_t end,
-                                const CurveRows<kTriples, T>& rows, bool streaming) {
+SIMDBEZIER_KERNEL void fill_lines(const CurveTask<T>& shared_task,
+                                  const CurveRows<kTriples, T>& shared_rows) {
   using Lines = CurveLines<kCurves, kTriples, T>;
   constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
-  const std::size_t stride = shape.values();
+  // Copies, because stores through vector types might change anything that others can see.
+  const CurveTask<T> task = shared_task;
+  const CurveRows<kTriples, T> rows = shared_rows;
+  const std::size_t stride = shared_task.shape->values();
   const Lines lines(task.x, task.n, stride);
   const std::size_t together = lines.curves();
-  const T* from = task.values + begin * stride + task.first_component * shape.channel_values();
-  const std::size_t whole = (end - begin) / together;
+  const T* from = task.values + task.first_component * kCubicValues;
+  const std::size_t whole = task.curve_count / together;
   std::size_t at = 0;
   const auto for_lines = [&](const auto& put) SIMDBEZIER_INLINE_LAMBDA {
     for (std::size_t k = 0; k < whole; ++k, from += together * stride, at += kValues) {
       if (task.prefetch) {
         prefetch_values(from + kValuesAhead<T>, together * stride);
       }
-      if (streaming && is_turn_to_ask<T, kValues>(at)) [[unlikely]] {
+      if (task.streaming && is_turn_to_ask<T, kValues>(at)) [[unlikely]] {
         repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
           ask_until_next_turn<kValues>(rows.first[s] + at);
         });
@@ -176,16 +178,16 @@ SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shap
       put();
     }
   };
-  if (streaming && whole > 0 && !rows.begin_lines()) {
+  if (task.streaming && whole > 0 && !rows.begin_lines()) {
     LineStream<vec<T>, true> streams[Lines::kStreams];
     repeat<Lines::kStreams>([&](std::size_t s)
                                 SIMDBEZIER_INLINE_LAMBDA { streams[s].begin(rows.first[s]); });
     for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, streams); });
     repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA { streams[s].finish(); });
   } else {
-    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, rows, at, streaming); });
+    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, rows, at, task.streaming); });
   }
-  const std::size_t rest = end - begin - whole * together;
+  const std::size_t rest = task.curve_count - whole * together;
   if (rest > 0) [[unlikely]] {
     fill_last_line(lines, from, stride, rest, rows.at(at), rows.row(task.n));
   }

@@ -73,7 +73,6 @@ struct CurveKernels {
   std::size_t first_component;
   std::size_t chunk_samples; ///< of the longest piece
   bool rows = false;         ///< kernels write the outputs' own layout, not staged
-  bool may_join = false;     ///< and may stream them from registers
 
   [[nodiscard]] std::size_t delivery_bytes(const OutputPlan<T>& outputs) const noexcept {
     return whole_lines(
@@ -90,7 +89,6 @@ struct CurveKernels {
     task.x = plan.x() + piece.first;
     task.n = piece.last - piece.first;
     task.rows = rows;
-    task.may_join = may_join;
     const Vectors<T>& position = outputs.out()[CurveOutput::position];
     if (rows && are_triples(position)) {
       task.triples = position.x + 3 * sample;

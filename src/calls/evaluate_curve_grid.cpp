@@ -25,22 +25,18 @@ bool can_go_in_rows(const CurveShape& shape, const OutputList<T>& out,
          (position.stride == 1 || are_triples(position));
 }
 
-/// Whether kernels may stream rows of n samples from registers that hold the end of one curve and
-/// the beginning of the next. That pays with registers of 32 bytes and more, since in smaller ones
-/// most of what it costs serves few samples; but not for triples if nearly each of 32 bytes would
-/// hold two curves.
+/// Whether kernels stream rows of n samples from registers: as whole lines, or from registers that
+/// hold the end of one curve and the beginning of the next. That pays with registers of 32 bytes
+/// and more, since in smaller ones most of what it costs serves few samples. Other rows are staged.
 template <typename T>
-bool may_join(const CurveShape& shape, const OutputPlan<T>& outputs, const KernelTable<T>& table,
-              std::size_t n) noexcept {
-  const std::size_t register_bytes = table.lanes * sizeof(T);
-  const bool narrow_triples =
-      register_bytes == 32 && are_triples(outputs.out()[CurveOutput::position]);
-  return outputs.streaming() && shape.degree == 3 && !shape.origins && register_bytes >= 32 &&
-         n >= table.lanes + (narrow_triples ? 2 : 0) && n <= kMostJoined;
+bool can_stream_rows(const CurveShape& shape, const KernelTable<T>& table, std::size_t n) noexcept {
+  const bool fill_lines = n >= kLeastRow && 64 / sizeof(T) % n == 0;
+  return shape.degree == 3 && !shape.origins && table.lanes * sizeof(T) >= 32 &&
+         (fill_lines || (n >= table.lanes && n <= kMostJoined));
 }
 
-/// Whether it pays to write rows of n samples. Planes that need no staging and hold whole registers
-/// are faster one by one.
+/// Whether it pays to write rows of n samples that stay in the caches. Planes that need no staging
+/// and hold whole registers are faster one by one.
 template <typename T>
 bool pays_in_rows(const OutputPlan<T>& outputs, const KernelTable<T>& table,
                   std::size_t n) noexcept {
@@ -65,8 +61,8 @@ public:
                            .lanes = kernels_.table.lanes,
                            .streamed = kernels_.table.lanes * sizeof(T) == 64});
     if (can_go_in_rows(curves.shape, out, kernels_.table)) {
-      kernels_.may_join = may_join(curves.shape, outputs_, kernels_.table, n);
-      kernels_.rows = kernels_.may_join || pays_in_rows(outputs_, kernels_.table, n);
+      kernels_.rows = outputs_.streaming() ? can_stream_rows(curves.shape, kernels_.table, n)
+                                           : pays_in_rows(outputs_, kernels_.table, n);
     }
     if (kernels_.rows) {
       outputs_.write_directly();

@@ -53,7 +53,8 @@ struct CurveArrays {
 /// Samples a curve with which kernels can write positions as rows: see curve/curve_row_kernel.hpp.
 inline constexpr std::size_t kLeastRow = 4;
 inline constexpr std::size_t kMostRow = 64;
-/// And with which they can stream rows from registers: see curve/joined_rows.hpp.
+/// They stream rows of cubics without origins only: those of a register of samples up to these (see
+/// curve/joined_rows.hpp), and those that whole lines hold (curve/lines_of_curves.hpp).
 inline constexpr std::size_t kMostJoined = 1024;
 
 /// Consecutive curves at the same parameters: sample i of the k-th one goes to plane[k * n + i].
@@ -63,8 +64,6 @@ struct CurveTask : CurveArrays<T> {
   const T* x; ///< n half-centred parameters, then at least kMaxLanes more values to read
   std::size_t n;
   bool rows;            ///< positions of three components, in the caller's own layout
-  bool may_join;        ///< rows can be joined: cubics without origins, a register of samples to
-                        ///< kMostJoined, to be streamed
   T* triples;           ///< of rows: packed x y z take the place of planes
   bool streaming;       ///< past the caches; unless `rows`, curves are whole cache lines
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()

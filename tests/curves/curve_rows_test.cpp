@@ -23,7 +23,7 @@ struct Rows {
 };
 const Rows kRows[] = {{true, 0, 0}, {false, 0, 0}, {false, 1, 0}, {false, 0, 5}, {false, 1, 5}};
 
-/// Fewer than a register, whole registers, and so many that rings go round.
+/// Fewer than a register, whole registers, and so many that coefficients are asked for ahead.
 const RowCase kRowCases[] = {{3, false, 1},  {3, false, 16},  {3, false, 1201}, {3, true, 523},
                              {1, false, 37}, {2, false, 300}, {4, false, 35},   {5, true, 267}};
 
