@@ -1,8 +1,9 @@
-// Rows of curves of at least a register of samples: lanes = samples of one curve.
+// Positions of curves in x y z triples: lanes = samples of one curve.
 #pragma once
 
-#include "kernels/curve/curve_rows.hpp"
-#include "kernels/simd/row_groups.hpp"
+#include <algorithm>
+
+#include "kernels/curve/curve_blocks.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -13,20 +14,19 @@ SIMDBEZIER_PART bool ends_alone(const CurveTask<T>& task) {
   return task.n % kLanes<V> == 1 && task.n > kLanes<V> && task.x[task.n - 1] == T(0.5);
 }
 
-/// Writes samples [first, first + a register) of curves [begin, end).
-template <std::size_t kKnownOrder, bool kTriples, typename T>
-SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& shape,
-                                  std::size_t begin, std::size_t end, std::size_t first,
-                                  const CurveRows<kTriples, T>& rows) {
+/// Writes samples [first, first + a register) of a block of curves, whose rows begin at `to`.
+template <std::size_t kKnownOrder, typename T>
+SIMDBEZIER_INLINE void sweep_triples(const CurveTask<T>& task, const CurveShape& shape,
+                                     CurveBlock block, std::size_t first, T* to) {
   using V = vec<T>;
   const CurvePoints<V, false> points(load_vector<V>(task.x + first));
   const std::size_t stride = shape.values();
-  const std::size_t row = rows.row(task.n);
   const std::size_t channel_values = shape.channel_values();
-  const T* values = task.values + begin * stride + task.first_component * channel_values;
-  std::size_t at = rows.row(first);
+  const T* values = task.values + block.begin * stride + task.first_component * channel_values;
   const bool prefetch = task.prefetch && first == 0;
-  for (std::size_t curve = begin; curve < end; ++curve, values += stride, at += row) {
+  to += 3 * first;
+  for (std::size_t curve = block.begin; curve < block.end;
+       ++curve, values += stride, to += 3 * task.n) {
     if (prefetch) {
       prefetch_values(values + kValuesAhead<T>, stride);
     }
@@ -36,41 +36,57 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
       value[c] = channel.finished(
           shape, channel.template series<0>(Order<kKnownOrder>(shape.order())).value);
     });
-    if constexpr (kTriples) {
-      store_triples(value, rows.first[0] + at, false);
-    } else {
-      repeat<3>([&](std::size_t c)
-                    SIMDBEZIER_INLINE_LAMBDA { store_vector(rows.first[c] + at, value[c]); });
+    store_triples(value, to, false);
+  }
+}
+
+/// Writes the rows of a block of curves to `to`, in registers as for_registers() has them.
+template <std::size_t kKnownOrder, typename T>
+SIMDBEZIER_INLINE void fill_triples(const CurveTask<T>& task, const CurveShape& shape,
+                                    CurveBlock block, T* to) {
+  using V = vec<T>;
+  const bool lone_end = ends_alone<V>(task);
+  const std::size_t swept = task.n - (lone_end ? 1 : 0);
+  for_registers<V>(swept, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
+    sweep_triples<kKnownOrder>(task, shape, block, first, to);
+  });
+  if (lone_end) {
+    const std::size_t channel = shape.channel_values();
+    const T* from = task.values + block.begin * shape.values() + task.first_component * channel +
+                    shape.ends_at() + 1;
+    to += 3 * swept;
+    for (std::size_t curve = block.begin; curve < block.end;
+         ++curve, from += shape.values(), to += 3 * task.n) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        move_value(to + c, from + c * channel);
+      }
     }
   }
 }
 
-/// Writes curves [begin, end) to rows of their own. The last register of a row may repeat samples
-/// of the one before.
-template <std::size_t kKnownOrder, bool kTriples, typename T>
-SIMDBEZIER_INLINE void fill_along(const CurveTask<T>& task, const CurveShape& shape,
-                                  std::size_t begin, std::size_t end,
-                                  const CurveRows<kTriples, T>& rows) {
-  using V = vec<T>;
-  const bool lone_end = ends_alone<V>(task);
-  const std::size_t swept = task.n - (lone_end ? 1 : 0);
-  for (std::size_t s = 0; s < swept; s += kLanes<V>) {
-    const std::size_t first = s + kLanes<V> <= swept ? s : swept - kLanes<V>;
-    sweep_rows<kKnownOrder>(task, shape, begin, end, first, rows);
+/// Writes all curves of a task, so many at a time that their lines are still in the first-level
+/// cache when the next register of samples comes to them. Idle lanes of short rows are written to
+/// the next curve's place, so that the last curves go through memory.
+template <std::size_t kKnownOrder, typename T>
+SIMDBEZIER_KERNEL void write_triples(const CurveTask<T>& shared_task) {
+  constexpr std::size_t kBatch = 2048 / sizeof(T);
+  constexpr std::size_t kAll = kLanes<vec<T>>;
+  // Copies, because stores through vector types might change anything that others can see.
+  const CurveTask<T> task = shared_task;
+  CurveShape shape = *shared_task.shape;
+  assume_order<kKnownOrder>(shape);
+  const std::size_t row = 3 * task.n;
+  const std::size_t last = std::min((kAll - 1) / task.n, task.curve_count);
+  const std::size_t end = task.curve_count - last;
+  const std::size_t batch = std::max<std::size_t>(kBatch / row, 1);
+  for (std::size_t first = 0; first < end; first += batch) {
+    const CurveBlock block{first, std::min(first + batch, end)};
+    fill_triples<kKnownOrder>(task, shape, block, task.triples + first * row);
   }
-  if (lone_end) {
-    const std::size_t channel = shape.channel_values();
-    const T* from =
-        task.values + begin * shape.values() + task.first_component * channel + shape.ends_at() + 1;
-    std::size_t at = rows.row(swept);
-    for (std::size_t curve = begin; curve < end; ++curve) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        move_value(kTriples ? rows.first[0] + at + c : rows.first[c % rows.kStreams] + at,
-                   from + c * channel);
-      }
-      from += shape.values();
-      at += rows.row(task.n);
-    }
+  if (last > 0) {
+    alignas(64) T memory[6 * kAll];
+    fill_triples<kKnownOrder>(task, shape, {end, task.curve_count}, memory);
+    __builtin_memcpy(task.triples + end * row, memory, last * row * sizeof(T));
   }
 }
 

@@ -9,9 +9,6 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Samples from which on planes amortise staging.
-constexpr std::size_t kLongRow = 32;
-
 /// Whether kernels are to write rows straight to where they belong, which they can only do with
 /// positions of three components.
 template <typename T>
@@ -25,24 +22,27 @@ bool can_go_in_rows(const CurveShape& shape, const OutputList<T>& out,
          (position.stride == 1 || are_triples(position));
 }
 
-/// Whether kernels stream rows of n samples from registers: as whole lines, or from registers that
-/// hold the end of one curve and the beginning of the next. That pays with registers of 32 bytes
-/// and more, since in smaller ones most of what it costs serves few samples. Other rows are staged.
-template <typename T>
-bool can_stream_rows(const CurveShape& shape, const KernelTable<T>& table, std::size_t n) noexcept {
-  const bool fill_lines = n >= kLeastRow && 64 / sizeof(T) % n == 0;
-  return shape.degree == 3 && !shape.origins && table.lanes * sizeof(T) >= 32 &&
-         (fill_lines || (n >= table.lanes && n <= kMostJoined));
+/// Whether cubics of n samples fill cache lines, a curve or several each, which kernels compute in
+/// registers.
+bool fill_lines(const CurveShape& shape, std::size_t line, std::size_t n) noexcept {
+  return shape.degree == 3 && !shape.origins && n >= kLeastRow && line % n == 0;
 }
 
-/// Whether it pays to write rows of n samples that stay in the caches. Planes that need no staging
-/// and hold whole registers are faster one by one.
+/// Whether kernels write rows of n samples. They stream them from registers: as whole lines, or as
+/// the end of one curve and the beginning of the next. That pays with registers of 32 bytes and
+/// more, since in smaller ones most of what it costs serves few samples; other rows that go past
+/// the caches are staged. Planes that stay in the caches go one by one, unless a register holds
+/// several curves.
 template <typename T>
-bool pays_in_rows(const OutputPlan<T>& outputs, const KernelTable<T>& table,
-                  std::size_t n) noexcept {
-  return n >= kLeastRow && n <= kMostRow &&
-         (are_triples(outputs.out()[CurveOutput::position]) ||
-          (outputs.staged() ? n < kLongRow : n < table.lanes));
+bool pays_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
+                  const KernelTable<T>& table, std::size_t n) noexcept {
+  const bool lines = fill_lines(shape, 64 / sizeof(T), n);
+  if (outputs.streaming()) {
+    const bool joined = shape.degree == 3 && !shape.origins && n >= table.lanes && n <= kMostJoined;
+    return table.lanes * sizeof(T) >= 32 && (lines || joined);
+  }
+  return are_triples(outputs.out()[CurveOutput::position]) ? n >= kLeastRow && n <= kMostRow
+                                                           : lines && n < table.lanes;
 }
 
 /// Units are curve-major (curve, strip) pairs.
@@ -60,10 +60,8 @@ public:
     outputs_.put_directly({.row = one_pass ? n : 0,
                            .lanes = kernels_.table.lanes,
                            .streamed = kernels_.table.lanes * sizeof(T) == 64});
-    if (can_go_in_rows(curves.shape, out, kernels_.table)) {
-      kernels_.rows = outputs_.streaming() ? can_stream_rows(curves.shape, kernels_.table, n)
-                                           : pays_in_rows(outputs_, kernels_.table, n);
-    }
+    kernels_.rows = can_go_in_rows(curves.shape, out, kernels_.table) &&
+                    pays_in_rows(curves.shape, outputs_, kernels_.table, n);
     if (kernels_.rows) {
       outputs_.write_directly();
     }
