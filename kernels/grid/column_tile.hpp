@@ -96,7 +96,7 @@ struct ColumnTile {
   std::size_t first;  ///< column
   std::size_t active; ///< columns of kColumns that exist
   bool watertight;
-  Column<V> column;
+  Column<V, kTurnsColumns<V> && kWhole && !kSingle> column;
   std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
 
   SIMDBEZIER_PART ColumnTile(const T* x, std::size_t first_column, std::size_t active_columns,

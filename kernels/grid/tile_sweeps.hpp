@@ -18,13 +18,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Whether registers are those of SSE2, of which a row of few columns has many.
-#if defined(SIMDBEZIER_KERNELS_SSE2)
-inline constexpr bool kSse2 = true;
-#else
-inline constexpr bool kSse2 = false;
-#endif
-
 /// Whether two registers of columns are swept as one, which counts rows half as often and writes to
 /// no cache line twice. Their polynomials take 8 of 16 or 32 registers, or 16 of 32.
 template <detail::OutputSet kOutputs, typename T>

@@ -7,59 +7,43 @@
 // cubic takes the place of the column (row).
 #pragma once
 
-#include "kernels/poly/even_odd.hpp"
+#include "kernels/poly/columns.hpp"
 #include "kernels/simd/fours.hpp"
-#include "src/storage/bicubic_layout.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-using detail::kEdges;
-using detail::kOrder;
-
-/// Returns c[0] + t c[1] + t^2 c[2] + t^3 c[3], for columns.
-template <typename V>
-SIMDBEZIER_INLINE V horner(const V c[kOrder], V t) {
-  return madd(madd(madd(c[3], t, c[2]), t, c[1]), t, c[0]);
-}
-
-/// Returns the same value, bit for bit, and finds its derivative.
-template <typename V>
-SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
-  const V b1 = madd(c[3], t, c[2]);
-  const V b0 = madd(b1, t, c[1]);
-  derivative = madd(madd(c[3], t, b1), t, b0);
-  return madd(b0, t, c[0]);
-}
-
-/// Returns the derivative alone.
-template <typename V>
-SIMDBEZIER_INLINE V horner_slope(const V c[kOrder], V t) {
-  V slope;
-  horner(c, t, slope);
-  return slope;
-}
-
-/// Returns the second derivative: two more synthetic divisions, and a factor 2 that rounds nothing.
-template <typename V>
-SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
-  const V b1 = madd(c[3], t, c[2]);
-  const V half = madd(c[3], t, madd(c[3], t, b1));
-  return half + half;
-}
-
 /// One column position X, or a register of them, and which lanes lie on the edges u = 0 and u = 1.
-template <typename V>
+template <typename V, bool kTurns = false>
 struct Column {
   V x;
   PairSelector<V> edges;
   bool on_edge; ///< false: no lane is on an edge u = const
+  std::conditional_t<kTurns, TurnedColumns<V>, NoTurnedColumns> turned;
 
   /// Where patches are not watertight, edges are as good as any column.
   SIMDBEZIER_INLINE Column(V half_centred, bool watertight)
       : x(half_centred),
         edges(x == broadcast<V>(ScalarOf<V>(-0.5)), x == broadcast<V>(ScalarOf<V>(0.5))),
-        on_edge(watertight && edges.worthwhile()) {}
+        on_edge(watertight && edges.worthwhile()), turned(half_centred, watertight) {}
+
+  /// Replaces the lanes that lie on edges; of a few values, for there are faster ways for many.
+  SIMDBEZIER_INLINE V replace(V inside, const ScalarOf<V>* pair) const {
+    if constexpr (kTurns) {
+      if (!turned.others) [[likely]] {
+        return turned.replace(inside, pair);
+      }
+    }
+    return edges.replace(inside, pair);
+  }
+  /// Returns the columns as parameters of the edges v = const.
+  SIMDBEZIER_INLINE RowPoint<V> along() const {
+    if constexpr (kTurns) {
+      return turned.along;
+    } else {
+      return RowPoint<V>(x);
+    }
+  }
 };
 
 /// The coefficients of one component of one patch.
@@ -98,9 +82,9 @@ struct Component {
 };
 
 /// A column on an edge u = const is the polynomial of that edge.
-template <typename V>
+template <typename V, bool kTurns>
 SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
-                                            const Column<V>& column, V q[kOrder]) {
+                                            const Column<V, kTurns>& column, V q[kOrder]) {
   if (column.on_edge) [[likely]] {
     for (std::size_t l = 0; l < kOrder; ++l) {
       q[l] = column.edges.replace(q[l], c.edge + l * kEdges + detail::kEdgeU0);
@@ -115,44 +99,59 @@ SIMDBEZIER_INLINE void matrix_column(const Component<ScalarOf<V>>& c, std::size_
   }
 }
 
-template <typename V>
-SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
-                                         V q[kOrder]) {
-  for (std::size_t l = 0; l < kOrder; ++l) {
-    V k[kOrder];
-    matrix_column(c, l, k);
-    q[l] = horner(k, column.x);
+template <typename V, bool kTurns>
+SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c,
+                                         const Column<V, kTurns>& column, V q[kOrder]) {
+  if constexpr (kTurns) {
+    column.turned.template polynomials<false>(c.matrix, c.edge, q, q);
+    if (!column.turned.others) [[likely]] {
+      return;
+    }
+  } else {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      V k[kOrder];
+      matrix_column(c, l, k);
+      q[l] = horner(k, column.x);
+    }
   }
   replace_edge_columns(c, column, q);
 }
 
 /// The polynomials in Y that a column is: q, and dq of the u derivative, which on an edge u = const
 /// still comes from the patch, because the edge's control points do not determine it.
-template <typename V>
-SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
-                                         V q[kOrder], V dq[kOrder]) {
-  for (std::size_t l = 0; l < kOrder; ++l) {
-    V k[kOrder];
-    matrix_column(c, l, k);
-    q[l] = horner(k, column.x, dq[l]);
+template <typename V, bool kTurns>
+SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c,
+                                         const Column<V, kTurns>& column, V q[kOrder],
+                                         V dq[kOrder]) {
+  if constexpr (kTurns) {
+    column.turned.template polynomials<true>(c.matrix, c.edge, q, dq);
+    if (!column.turned.others) [[likely]] {
+      return;
+    }
+  } else {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      V k[kOrder];
+      matrix_column(c, l, k);
+      q[l] = horner(k, column.x, dq[l]);
+    }
   }
   replace_edge_columns(c, column, q);
 }
 
 /// This is column_polynomial() for a single column, which all lanes share: it computes all four
 /// powers of Y at once, for a quarter of the operations.
-template <typename V>
+template <typename V, bool kTurns>
 SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
-                                                const Column<V>& column, V q[kOrder]) {
+                                                const Column<V, kTurns>& column, V q[kOrder]) {
   V k[kOrder];
   load_fours(c.matrix, k);
   split_fours(horner(k, column.x), q);
   replace_edge_columns(c, column, q);
 }
 
-template <typename V>
+template <typename V, bool kTurns>
 SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
-                                                const Column<V>& column, V q[kOrder],
+                                                const Column<V, kTurns>& column, V q[kOrder],
                                                 V dq[kOrder]) {
   V k[kOrder];
   load_fours(c.matrix, k);
@@ -169,7 +168,8 @@ struct SecondColumns {
   V dq[kOrder];
   V ddq[kOrder];
 
-  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V>& column) {
+  template <bool kTurns>
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column) {
     for (std::size_t l = 0; l < kOrder; ++l) {
       V k[kOrder];
       matrix_column(c, l, k);
@@ -209,9 +209,9 @@ struct LocalOrigin {
 };
 
 /// Returns the origin of a column. One on an edge u = const has that edge's origin.
-template <typename V>
+template <typename V, bool kTurns>
 SIMDBEZIER_INLINE LocalOrigin<V> column_origin(const Component<ScalarOf<V>>& c,
-                                               const Column<V>& column) {
+                                               const Column<V, kTurns>& column) {
   LocalOrigin<V> origin{c.origins != nullptr, column.x};
   if (origin.exists) [[unlikely]] {
     constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
@@ -231,39 +231,39 @@ SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t e
 
 /// Turns the value of the edge's cubic into the position: the origin is added, and corners are as
 /// stored.
-template <typename V>
-SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
+template <typename V, bool kTurns>
+SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
                                   std::size_t edge, V value) {
   if (c.origins != nullptr) [[unlikely]] {
     value = value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
   }
-  return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
+  return column.replace(value, c.corner + detail::corner_index(0, edge));
 }
 
 /// Returns the position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
-template <typename V>
-SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
+template <typename V, bool kTurns>
+SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
                                   std::size_t edge) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge(c, column, edge, row_value(k, RowPoint<V>(column.x)));
+  return finished_edge(c, column, edge, row_value(k, column.along()));
 }
 
-template <typename V>
-SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
+template <typename V, bool kTurns>
+SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
                                   std::size_t edge, V& du) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge(c, column, edge, row_value(k, RowPoint<V>(column.x), du));
+  return finished_edge(c, column, edge, row_value(k, column.along(), du));
 }
 
 /// Returns d2S/du2 on the edge v = 0 or 1.
-template <typename V>
-SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V>& column,
+template <typename V, bool kTurns>
+SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
                                 std::size_t edge) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return row_second(k, RowPoint<V>(column.x));
+  return row_second(k, column.along());
 }
 
 /// Finds N = du x dv and returns |N|^2.

@@ -131,6 +131,30 @@ template <typename V>
 using EndSelector = PairSelector<V>;
 #endif
 
+#if defined(SIMDBEZIER_KERNELS_SSE2)
+/// Returns a bit for each lane.
+SIMDBEZIER_INLINE unsigned lane_bits(MaskOf<vec<float>> mask) {
+  return static_cast<unsigned>(_mm_movemask_ps(mask));
+}
+SIMDBEZIER_INLINE unsigned lane_bits(MaskOf<vec<double>> mask) {
+  return static_cast<unsigned>(_mm_movemask_pd(mask));
+}
+
+SIMDBEZIER_INLINE vec<float> with_first_lane(vec<float> v, const float* value) {
+  return vec<float>(_mm_move_ss(v, _mm_load_ss(value)));
+}
+SIMDBEZIER_INLINE vec<double> with_first_lane(vec<double> v, const double* value) {
+  return vec<double>(_mm_loadl_pd(v, value));
+}
+SIMDBEZIER_INLINE vec<float> with_last_lane(vec<float> v, const float* value) {
+  const __m128 last = _mm_shuffle_ps(v, _mm_load_ss(value), _MM_SHUFFLE(0, 0, 2, 2));
+  return vec<float>(_mm_shuffle_ps(v, last, _MM_SHUFFLE(2, 0, 1, 0)));
+}
+SIMDBEZIER_INLINE vec<double> with_last_lane(vec<double> v, const double* value) {
+  return vec<double>(_mm_loadh_pd(v, value));
+}
+#endif
+
 /// Returns the power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
 template <typename V>
 SIMDBEZIER_INLINE V power_of_two_below(V x) {

@@ -87,6 +87,21 @@ SIMDBEZIER_INLINE RegisterPair<V> vector_fma(RegisterPair<V> a, RegisterPair<V> 
   return {madd(a.low, b.low, c.low), madd(a.high, b.high, c.high)};
 }
 
+#if defined(SIMDBEZIER_KERNELS_SSE2)
+template <typename V>
+SIMDBEZIER_INLINE unsigned lane_bits(TwiceMask<V> mask) {
+  return lane_bits(mask.low) | lane_bits(mask.high) << kLanes<V>;
+}
+template <typename V>
+SIMDBEZIER_INLINE RegisterPair<V> with_first_lane(RegisterPair<V> v, const ScalarOf<V>* value) {
+  return {with_first_lane(v.low, value), v.high};
+}
+template <typename V>
+SIMDBEZIER_INLINE RegisterPair<V> with_last_lane(RegisterPair<V> v, const ScalarOf<V>* value) {
+  return {v.low, with_last_lane(v.high, value)};
+}
+#endif
+
 template <typename V>
 class PairSelector<RegisterPair<V>> {
 public:

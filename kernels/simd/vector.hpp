@@ -61,6 +61,13 @@ inline constexpr bool kCompact = SIMDBEZIER_COMPACT == 1;
 /// Whether that holds for patches that are not bicubic or not points in space.
 inline constexpr bool kCompactShapes = SIMDBEZIER_COMPACT != 0;
 
+/// Whether registers are those of SSE2, of which a row of few columns has many.
+#if defined(SIMDBEZIER_KERNELS_SSE2)
+inline constexpr bool kSse2 = true;
+#else
+inline constexpr bool kSse2 = false;
+#endif
+
 // Which V holds what -----------------------------------------------------------------------------
 
 template <typename V>
