@@ -226,8 +226,11 @@ struct Components {
   static constexpr GridStrategy kName = GridStrategy::components;
   static constexpr bool kExists = kSweepsByComponents<kOutputs, vec<T>>;
   static SIMDBEZIER_PART bool applies(const GridTask<T>& task, const RowPiece<T>& piece) {
-    return (!kUsual<kOutputs> || stays_in_planes(task)) && !task.plain_to_memory &&
-           task.nu >= 2 * kLanes<vec<T>> && bytes_of<kOutputs>(task, piece) > kCachedBytes;
+    constexpr std::size_t kColumns = ComponentTile<kOutputs, vec<T>>::kColumns;
+    // Positions are too little arithmetic for tiles that overlap.
+    const bool fits = kOutputs != detail::kPosition || task.nu % kColumns == 0;
+    return (!kUsual<kOutputs> || stays_in_planes(task)) && !task.plain_to_memory && fits &&
+           task.nu >= 2 * kColumns && bytes_of<kOutputs>(task, piece) >= kCachedBytes;
   }
   static SIMDBEZIER_PART void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
                                     std::size_t patch, std::size_t end) {
