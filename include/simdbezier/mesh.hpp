@@ -41,8 +41,8 @@ struct MeshOptions {
   bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  double crease_degrees = kUnlimited; ///< see split_creases(); above 0. Unlimited: nothing is split
-  bool share_vertices = true;         ///< false: no vertex is that of two patches
+  /// Sharper edges stay sharp, see split_creases(). 0: no vertex is that of two patches.
+  double crease_degrees = kUnlimited;
 
   bool normals = true;
   /// u, v and the patch's number for every vertex. Patches then share positions and normals, but no

@@ -191,9 +191,7 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
   options.relative_tolerance =
       positive(number_or_infinity(relative, "relative"), false, "relative");
   set_grid(grid, options);
-  const double degrees = crease_degrees(crease);
-  options.share_vertices = degrees > 0;
-  options.crease_degrees = degrees > 0 ? degrees : kUnlimited;
+  options.crease_degrees = crease_degrees(crease);
   options.rates.longest_edge =
       positive(number_or_infinity(longest_edge, "longest_edge"), false, "longest_edge");
   options.normals = flag(normals, "normals");

@@ -33,8 +33,7 @@ MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
   options.topology.point_size = known.point_size;
   options.topology.snap = known.snap;
   options.split_edges = known.split_edges != 0;
-  options.crease_degrees = limit_of(known.crease_degrees);
-  options.share_vertices = known.unshared == 0;
+  options.crease_degrees = known.unshared != 0 ? 0 : limit_of(known.crease_degrees);
   options.topology.orient = known.orient != 0;
   options.topology.flip = known.flip != 0;
   options.drop_repeated = known.drop_repeated != 0;

@@ -19,7 +19,7 @@ inline const char* meaningless_measure(const MeshOptions& options) noexcept {
                   {"normal_degrees", options.rates.normal_degrees, false},
                   {"point_size", options.topology.point_size, true},
                   {"snap", options.topology.snap, true},
-                  {"crease_degrees", options.crease_degrees, false}};
+                  {"crease_degrees", options.crease_degrees, true}};
   for (const auto& measure : measures) {
     if (!(measure.value > 0 || (measure.may_be_zero && measure.value == 0))) { // or nan
       return measure.name;

@@ -285,9 +285,8 @@ private:
   Status lay_out() {
     Status status = lay_out_mesh(plan_.topology, {plan_.cells_u, plan_.cells_v, diagonals_},
                                  plan_.layout, options_);
-    const double degrees = options_.share_vertices ? options_.crease_degrees : 0;
-    if (status && degrees != kUnlimited) {
-      status = split_creases(plan_.set, plan_.layout, degrees, plan_.layout,
+    if (status && options_.crease_degrees != kUnlimited) {
+      status = split_creases(plan_.set, plan_.layout, options_.crease_degrees, plan_.layout,
                              {.threads = options_.threads, .isa = options_.isa});
     }
     return status && options_.parameters ? split_parameters(plan_.layout, plan_.layout) : status;

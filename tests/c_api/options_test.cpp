@@ -134,7 +134,7 @@ std::vector<Case> option_cases(const std::vector<double>& tolerances,
       {"flip", [](auto& o) { o.topology.flip = true; }, [](auto& o) { o.flip = 1; }},
       {"drop_repeated", [](auto& o) { o.drop_repeated = true; },
        [](auto& o) { o.drop_repeated = 1; }},
-      {"unshared", [](auto& o) { o.share_vertices = false; }, [](auto& o) { o.unshared = 1; }},
+      {"unshared", [](auto& o) { o.crease_degrees = 0; }, [](auto& o) { o.unshared = 1; }},
       {"no_normals", [](auto& o) { o.normals = false; }, [](auto& o) { o.no_normals = 1; }},
       {"short_indices", [](auto& o) { o.short_indices = true; },
        [](auto& o) { o.short_indices = 1; }}};

@@ -64,7 +64,7 @@ TEST(MeshOptions, options_are_followed) {
   const Mesh<float> finer = mesh_of([&](auto& o) { o.rates.tolerances = tolerances; });
   EXPECT_LE(finer.deviation, 0.002);
   EXPECT_LE(mesh_of([](auto& o) { o.relative_tolerance = 1e-4; }).deviation, 1e-4 * 12.4);
-  const auto split = mesh_of([](auto& o) { o.share_vertices = false; });
+  const auto split = mesh_of([](auto& o) { o.crease_degrees = 0; });
   EXPECT_GT(split.positions.size(), usual.positions.size());
   EXPECT_EQ(split.triangles.size(), usual.triangles.size());
   const std::vector<double> errors(6, 0.004); // of the control points
@@ -235,7 +235,6 @@ const Refused kRefused[] = {
     {"edge 0", Status::bad_tolerance, [](MeshOptions& o) { o.rates.longest_edge = 0; }},
     {"angle nan", Status::bad_tolerance, [](MeshOptions& o) { o.rates.normal_degrees = kNan; }},
     {"crease nan", Status::bad_tolerance, [](MeshOptions& o) { o.crease_degrees = kNan; }},
-    {"crease 0", Status::bad_tolerance, [](MeshOptions& o) { o.crease_degrees = 0; }},
     {"crease -1", Status::bad_tolerance, [](MeshOptions& o) { o.crease_degrees = -1; }},
     {"snap -1", Status::bad_tolerance, [](MeshOptions& o) { o.topology.snap = -1; }},
     {"points nan", Status::bad_tolerance, [](MeshOptions& o) { o.topology.point_size = kNan; }},

@@ -267,7 +267,7 @@ const Request kRequests[] = {
     {"tolerance", [](MeshOptions& o) { o.rates.tolerance = 0.05; }},
     {"grid", [](MeshOptions& o) { o.nu = 4, o.nv = 3; }},
     {"crease", [](MeshOptions& o) { o.rates.tolerance = 0.05, o.crease_degrees = kCreases[2]; }},
-    {"apart", [](MeshOptions& o) { o.nu = o.nv = 3, o.share_vertices = false; }},
+    {"apart", [](MeshOptions& o) { o.nu = o.nv = 3, o.crease_degrees = 0; }},
     {"no normals", [](MeshOptions& o) { o.nu = 2, o.nv = 5, o.normals = false; }},
     {"flipped", [](MeshOptions& o) { o.nu = o.nv = 3, o.topology.flip = true; }},
     {"once each", [](MeshOptions& o) { o.nu = o.nv = 3, o.drop_repeated = true; }}};

@@ -73,8 +73,7 @@ MeshOptions mesh_options(const Arguments& arguments, const PlannedModel& model) 
   options.topology = {mesh.point_size, mesh.orient, mesh.flip, mesh.snap};
   options.split_edges = mesh.split_edges;
   options.drop_repeated = mesh.drop_repeated;
-  options.share_vertices = mesh.crease != 0;
-  options.crease_degrees = options.share_vertices ? mesh.crease.value_or(kUnlimited) : kUnlimited;
+  options.crease_degrees = mesh.crease.value_or(kUnlimited);
   options.parameters = mesh.parameters;
   options.threads = arguments.threads;
   return options;

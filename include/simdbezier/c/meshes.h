@@ -113,8 +113,8 @@ typedef struct simdbezier_mesh_options {
   uint32_t nv;
   double point_size;
   double snap;
-  double crease_degrees; // 0: all normals are merged
-  int32_t unshared;      // not 0: patches share no vertices
+  double crease_degrees; // 0: none, all normals are merged
+  int32_t unshared; // not 0: crease_degrees is meant to be 0, so that patches share no vertices
   int32_t orient;
   int32_t flip;
   int32_t drop_repeated;

@@ -32,9 +32,7 @@ public:
     const std::uint8_t more = bytes.byte();
     options_.topology.snap = (more & 3) == 3 ? static_cast<double>(bytes.raw<float>()) : 0;
     options_.topology.point_size = (more & 12) == 12 ? std::ldexp(1.0, bytes.between(-30, 3)) : 0;
-    const double crease = (more & 48) == 48 ? 60 * bytes.between(0, 3) : kUnlimited;
-    options_.share_vertices = crease > 0;
-    options_.crease_degrees = crease > 0 ? crease : kUnlimited;
+    options_.crease_degrees = (more & 48) == 48 ? 60 * bytes.between(0, 3) : kUnlimited;
     options_.short_indices = (more & 64) != 0;
     // Weights that are far apart would ask for many cells.
     if ((more & 128) != 0 && nets_.moderate && !nets_.rational()) {
