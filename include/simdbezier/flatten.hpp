@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <simdbezier/curves.hpp>
+#include <simdbezier/rates.hpp>
 
 namespace simdbezier {
 
@@ -19,8 +20,9 @@ inline constexpr std::uint32_t kMostPolylinePoints = (1U << 16) + 1;
 
 struct FlattenOptions {
   /// The largest distance between a curve and its polyline, over all components.
-  double tolerance = 0;
-  std::span<const double> tolerances = {}; ///< one value a curve, instead of `tolerance`; or empty
+  double tolerance = kUnlimited;
+  /// One value a curve, or empty. If `tolerance` is given as well, the smaller one counts.
+  std::span<const double> tolerances = {};
   /// How far evaluated points may be from the exact ones, one value a curve: position_errors() of
   /// the set that will be evaluated. It is a part of the tolerance. Empty: 0.
   std::span<const double> errors = {};

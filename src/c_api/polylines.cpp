@@ -16,7 +16,7 @@ static_assert(std::uint32_t{SIMDBEZIER_MOST_POLYLINE_POINTS} == kMostPolylinePoi
 
 FlattenOptions flatten_options_of(const Given<simdbezier_flatten_options>& known) {
   FlattenOptions options;
-  options.tolerance = known.tolerance;
+  options.tolerance = limit_of(known.tolerance);
   options.tolerances = SIMDBEZIER_SPAN(known, tolerances);
   options.errors = SIMDBEZIER_SPAN(known, errors);
   options.most_points = known.most_points == 0 ? kMostPolylinePoints : known.most_points;

@@ -113,14 +113,16 @@ simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t le
 simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t length,
                                            const simdbezier_topology* topology,
                                            const double* errors, size_t errors_length,
-                                           const simdbezier_rates* rates, int32_t threads) {
+                                           const simdbezier_rates* rates,
+                                           const simdbezier_options* options) {
   return answer(__func__, [&] {
     const CertifiedRates out = rates_of(rates);
     const std::span<const double> known = SIMDBEZIER_ARRAY(errors);
     const Topology& joined = object_of(topology, kTopology);
+    const RunOptions run = call_options_of(options);
     with_net_array(nets, length, [&](const auto& views) {
-      require_rates(certify_rates(views, joined, known, out, {.threads = threads}), views,
-                    blamed_errors, [&](std::size_t patches) {
+      require_rates(certify_rates(views, joined, known, out, run), views, blamed_errors,
+                    [&](std::size_t patches) {
                       return is_one_each(known, patches) ? blamed_rates(out, patches, joined)
                                                          : kErrors;
                     });
@@ -131,13 +133,15 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
 simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t length,
                                            uint32_t cells_u, uint32_t cells_v, const double* errors,
                                            size_t errors_length, double* deviation,
-                                           size_t deviation_length, int32_t threads) {
+                                           size_t deviation_length,
+                                           const simdbezier_options* options) {
   return answer(__func__, [&] {
     const std::span<const double> known = SIMDBEZIER_ARRAY(errors);
     const std::span<double> out = SIMDBEZIER_ARRAY(deviation);
+    const RunOptions run = call_options_of(options);
     with_net_array(nets, length, [&](const auto& views) {
-      require_rates(certify_grids(views, cells_u, cells_v, known, out, {.threads = threads}), views,
-                    blamed_errors, [&](std::size_t patches) -> Path {
+      require_rates(certify_grids(views, cells_u, cells_v, known, out, run), views, blamed_errors,
+                    [&](std::size_t patches) -> Path {
                       return !is_one_each(known, patches) ? kErrors
                              : out.size() == patches      ? Path{"cells_u or cells_v"}
                                                           : Path{"deviation"};

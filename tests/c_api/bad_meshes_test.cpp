@@ -161,15 +161,15 @@ const Refusal<MeshWorld> kRates[] = {
      [](MeshWorld& w) { return w.rates.cells_v_length = 1, w.lay_out(); }},
     {SIMDBEZIER_NULL_INPUT, "nets",
      [](MeshWorld& w) {
-       return simdbezier_certify_grids(nullptr, 1, 2, 2, nullptr, 0, w.deviation, 2, 0);
+       return simdbezier_certify_grids(nullptr, 1, 2, 2, nullptr, 0, w.deviation, 2, nullptr);
      }},
     {SIMDBEZIER_NULL_OUTPUT, "deviation",
      [](MeshWorld& w) {
-       return simdbezier_certify_grids(&w.nets, 1, 2, 2, nullptr, 0, nullptr, 2, 0);
+       return simdbezier_certify_grids(&w.nets, 1, 2, 2, nullptr, 0, nullptr, 2, nullptr);
      }},
     {SIMDBEZIER_NULL_INPUT, "errors",
      [](MeshWorld& w) {
-       return simdbezier_certify_grids(&w.nets, 1, 2, 2, nullptr, 2, w.deviation, 2, 0);
+       return simdbezier_certify_grids(&w.nets, 1, 2, 2, nullptr, 2, w.deviation, 2, nullptr);
      }},
     {SIMDBEZIER_BAD_RATES, "deviation",
      [](MeshWorld& w) { return w.rates.deviation_length = 1, w.certify_grids(2, 2); }},
@@ -183,6 +183,18 @@ const Refusal<MeshWorld> kRates[] = {
      [](MeshWorld& w) { return w.numbers[0] = kNan, w.certify_grids(2, 2); }},
     {SIMDBEZIER_NON_FINITE_INPUT, "nets[0].points",
      [](MeshWorld& w) { return w.values[50] = kNan, w.certify_grids(2, 2); }},
+    {SIMDBEZIER_BAD_VALUE, "options->isa",
+     [](MeshWorld& w) { return w.options.isa = 99, w.certify_grids(2, 2); }},
+    {SIMDBEZIER_BAD_VALUE, "options->isa",
+     [](MeshWorld& w) { return w.options.isa = 99, w.certify(); }},
+    {SIMDBEZIER_UNSUPPORTED_ISA, "options->isa",
+     [](MeshWorld& w) {
+       return w.options.isa = static_cast<simdbezier_isa>(absent_isa()), w.certify_grids(2, 2);
+     }},
+    {SIMDBEZIER_UNSUPPORTED_ISA, "options->isa",
+     [](MeshWorld& w) {
+       return w.options.isa = static_cast<simdbezier_isa>(absent_isa()), w.certify();
+     }},
     {SIMDBEZIER_BAD_ALIGNMENT, "nets[0].points",
      [](MeshWorld& w) { return between(w.nets.points), w.certify_grids(2, 2); }}};
 

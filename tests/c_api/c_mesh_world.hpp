@@ -70,11 +70,11 @@ struct MeshWorld : World {
     return simdbezier_choose_rates(&nets, 1, topology, &rate_options, &rates);
   }
   simdbezier_status certify(const double* errors = nullptr, std::size_t length = 0) {
-    return simdbezier_certify_rates(&nets, 1, topology, errors, length, &rates, 0);
+    return simdbezier_certify_rates(&nets, 1, topology, errors, length, &rates, &options);
   }
   simdbezier_status certify_grids(std::uint32_t nu_, std::uint32_t nv_) {
     return simdbezier_certify_grids(&nets, 1, nu_, nv_, numbers, numbers_length, deviation,
-                                    rates.deviation_length, 0);
+                                    rates.deviation_length, &options);
   }
   simdbezier_status lay_out() {
     return simdbezier_lay_out_mesh(topology, &rates, &options, &made_layout);

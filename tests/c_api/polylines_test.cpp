@@ -32,6 +32,11 @@ TYPED_TEST(CPolylines, HaveTheSizesOfCpp) {
       {"tolerance", [](auto&) {}, [](auto&) {}},
       {"tolerances", [&](auto& o) { o.tolerances = tolerances; },
        [&](auto& o) { o.tolerances = tolerances.data(), o.tolerances_length = 7; }},
+      {"tolerances alone", [&](auto& o) { o.tolerances = tolerances, o.tolerance = kUnlimited; },
+       [&](auto& o) {
+         o.tolerances = tolerances.data(), o.tolerances_length = 7, o.tolerance = 0;
+       }},
+      {"nothing", [](auto& o) { o.tolerance = kUnlimited; }, [](auto& o) { o.tolerance = 0; }},
       {"errors", [&](auto& o) { o.errors = errors; },
        [&](auto& o) { o.errors = errors.data(), o.errors_length = 7; }}};
   std::vector<std::vector<std::uint32_t>> different;
@@ -263,7 +268,7 @@ const Refusal<World> kRefusals[] = {
        return w.values[2] = -1, w.choose();
      }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
-     [](World& w) { return w.options.tolerance = 0, w.choose(); }},
+     [](World& w) { return w.options.tolerance = -1, w.choose(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->tolerances",
      [](World& w) {
        w.options.tolerances = w.numbers.data();

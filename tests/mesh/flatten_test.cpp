@@ -154,6 +154,9 @@ TEST(FlattenSizes, bad_input_is_a_status) {
   for (const double tolerance : {0.0, -1.0, nan, 1e-15}) {
     EXPECT_EQ(status({tolerance}), Status::bad_tolerance);
   }
+  const std::array<double, 2> fine = {1e-3, 1e-4};
+  EXPECT_EQ(status({nan, fine}), Status::bad_tolerance);
+  EXPECT_EQ(status({0, fine}), Status::bad_tolerance);
   const std::array<double, 2> errors = {0, 0.1};
   const Report report = choose_polylines(curve.curves(), {0.1, {}, errors}, points, {});
   EXPECT_EQ(report.status, Status::bad_tolerance);

@@ -154,7 +154,7 @@ Entries make_entries() {
        " evaluate "},
       {"--precision", "TYPE", "f32 or f64",
        "Numbers to compute with (default f32, control points are rounded to float first)", both},
-      {"--threads", "N", "1 to " + std::to_string(kMostThreads) + ", or 0 for all",
+      {"--threads", "N", "1 to " + std::to_string(kMostThreads) + ", or 0 for as many as pay",
        "Threads to compute with (default 0)", both},
       {"--json", "", "", "One JSON object, for machines", " info "},
       {"--version", "", "", "Print the version", " simdbezier "},

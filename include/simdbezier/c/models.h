@@ -133,13 +133,16 @@ SIMDBEZIER_API simdbezier_status simdbezier_choose_rates(const simdbezier_nets* 
                                                          const simdbezier_rates* rates);
 SIMDBEZIER_API simdbezier_status simdbezier_certify_rates(
     const simdbezier_nets* nets, size_t length, const simdbezier_topology* topology,
-    const double* errors, size_t errors_length, const simdbezier_rates* rates, int32_t threads);
-// certify_grids(): deviation has one value a patch; errors has as many, or is null.
+    const double* errors, size_t errors_length, const simdbezier_rates* rates,
+    const simdbezier_options* options);
+// certify_grids(): deviation has one value a patch; errors has as many, or is null. Of the options
+// of both, threads and isa count.
 SIMDBEZIER_API simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets,
                                                           size_t length, uint32_t cells_u,
                                                           uint32_t cells_v, const double* errors,
                                                           size_t errors_length, double* deviation,
-                                                          size_t deviation_length, int32_t threads);
+                                                          size_t deviation_length,
+                                                          const simdbezier_options* options);
 // separate_vertices(): raises small rates; `raised` may be null.
 SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(
     const simdbezier_topology* topology, uint32_t* cells_u, size_t cells_u_length,

@@ -14,8 +14,8 @@ enum { SIMDBEZIER_MOST_POLYLINE_POINTS = 65537 }; // kMostPolylinePoints
 // FlattenOptions.
 typedef struct simdbezier_flatten_options {
   size_t struct_size;
-  double tolerance;
-  const double* tolerances; // one value a curve, instead of `tolerance`; or null
+  double tolerance;         // 0: none
+  const double* tolerances; // one value a curve, in addition to `tolerance`; or null
   size_t tolerances_length;
   const double* errors; // simdbezier_curve_position_errors(), or null
   size_t errors_length;

@@ -199,11 +199,12 @@ Status choose_points(const ControlCurves<S>& curves, const FlattenOptions& optio
   if (const Status status = bound.read(curves, curve); !status) {
     return status;
   }
-  const double wanted = options.tolerances.empty() ? options.tolerance : options.tolerances[curve];
+  const double own = options.tolerances.empty() ? options.tolerance : options.tolerances[curve];
+  const double wanted = own >= options.tolerance ? options.tolerance : own; // nan is refused
   const double error = options.errors.empty() ? 0 : options.errors[curve];
   const double t = tolerance_less(wanted, error);
   const double second = bound.second();
-  const bool possible = t > 0 && error >= 0;
+  const bool possible = options.tolerance > 0 && t > 0 && error >= 0;
   const std::uint32_t most = std::min(options.most_points, kMostPolylinePoints);
   std::uint32_t count = possible ? points_for(second, t, most) : 0;
   double found = count == 0 ? t : bound_of(second, count - 1);

@@ -35,7 +35,7 @@ TEST(Help, AndVersionAreAnswers) {
 TEST(Help, HasExamplesRangesDefaultsAndExitCodes) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
       {"tessellate",
-       {"N or NUxNV, each from 2 to 1048576", "(default 16)", "1 to 1024, or 0 for all",
+       {"N or NUxNV, each from 2 to 1048576", "(default 16)", "1 to 1024, or 0 for as many as pay",
         "(default f32", "rounded to float first", "--no-normals",
         ".obj, .ply, .stl, .glb, .vtu or .raw", "at most 4097 a direction in one mesh without gaps",
         "a device or pipe needs --to"}},

@@ -68,7 +68,7 @@ std::vector<BadUsage> bad_usages() {
        "found "
        "'--grid'"},
       {"OptionForOptionsValue", tessellate_obj({"--threads", "--grid=4"}),
-       "--threads: expected 1 to 1024, or 0 for all, found '--grid=4'"},
+       "--threads: expected 1 to 1024, or 0 for as many as pay, found '--grid=4'"},
       {"FlagWithValue",
        {"info", "builtin:teapot", "--json=3"},
        "--json: expected no value, found '3'"},
