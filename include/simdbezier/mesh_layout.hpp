@@ -156,14 +156,17 @@ template <typename Index>
                                                    const RunOptions& options = {},
                                                    SetRange patches = {}) noexcept;
 
-/// Counts the numbers that write_strips() writes.
+/// Counts the numbers that write_strips() writes. patches: as for write_triangles().
 [[nodiscard]] SIMDBEZIER_API Status strip_size(const MeshLayout& layout, std::size_t& indices,
-                                               const RunOptions& options = {}) noexcept;
+                                               const RunOptions& options = {},
+                                               SetRange patches = {}) noexcept;
 
 /// Writes triangle strips; the largest value of Index ends each of them (primitive restart).
+/// patches: as for write_triangles(); no strip has triangles of two patches.
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_strips(const MeshLayout& layout, std::span<Index> indices,
-                                                 const RunOptions& options = {}) noexcept;
+                                                 const RunOptions& options = {},
+                                                 SetRange patches = {}) noexcept;
 
 /// A group of neighbouring triangles with vertices of its own, as mesh shaders take them.
 struct MeshCluster {
@@ -182,9 +185,11 @@ struct ClusterSize {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
 };
-/// Counts the clusters that write_clusters() writes, and the values that they take.
+/// Counts the clusters that write_clusters() writes, and the values that they take. patches: as for
+/// write_triangles().
 [[nodiscard]] SIMDBEZIER_API Status cluster_size(const MeshLayout& layout, ClusterSize& size,
-                                                 const RunOptions& options = {}) noexcept;
+                                                 const RunOptions& options = {},
+                                                 SetRange patches = {}) noexcept;
 
 /// Where clusters go: as many values as ClusterSize says, three corners a triangle.
 struct ClusterOutputs {
@@ -194,10 +199,12 @@ struct ClusterOutputs {
 };
 
 /// Writes the mesh in clusters of at most kMostClusterTriangles triangles and kMostClusterVertices
-/// vertices of one patch, in blocks of about 8 x 8 cells.
+/// vertices of one patch, in blocks of about 8 x 8 cells. patches: as for write_triangles();
+/// first_vertex and first_triangle begin at 0 for the first of them.
 [[nodiscard]] SIMDBEZIER_API Status write_clusters(const MeshLayout& layout,
                                                    const ClusterOutputs& out,
-                                                   const RunOptions& options = {}) noexcept;
+                                                   const RunOptions& options = {},
+                                                   SetRange patches = {}) noexcept;
 
 // Parts of a model that several processes work on, each with some of its patches;
 // docs/guide/clusters.md has a program that works like this.

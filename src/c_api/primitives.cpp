@@ -72,10 +72,12 @@ simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout
 
 template <typename Index>
 simdbezier_status strips_of(const char* function, const simdbezier_mesh_layout* layout,
-                            Index* indices, std::size_t length, int threads) noexcept {
+                            Index* indices, std::size_t length,
+                            const simdbezier_primitive_options* options) noexcept {
   return answer(function, [&] {
     const std::span<Index> out = span_of(indices, length, {"indices"});
-    require_ok(write_strips(object_of(layout, kLayout), out, {.threads = threads}),
+    const Primitives how = primitives_of(options);
+    require_ok(write_strips(object_of(layout, kLayout), out, how.options, how.patches),
                about("indices"));
   });
 }
@@ -103,8 +105,9 @@ using namespace simdbezier::c_api;
     return polygons_of(__func__, layout, indices, length, sizes, sizes_length, options);           \
   }                                                                                                \
   simdbezier_status simdbezier_write_strips_##suffix(                                              \
-      const simdbezier_mesh_layout* layout, Index* indices, size_t length, int32_t threads) {      \
-    return strips_of(__func__, layout, indices, length, threads);                                  \
+      const simdbezier_mesh_layout* layout, Index* indices, size_t length,                         \
+      const simdbezier_primitive_options* options) {                                               \
+    return strips_of(__func__, layout, indices, length, options);                                  \
   }
 SIMDBEZIER_INDICES(u32, uint32_t)
 SIMDBEZIER_INDICES(u16, uint16_t)
@@ -124,23 +127,26 @@ simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, 
 }
 
 simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, size_t* indices,
-                                        int32_t threads) {
+                                        const simdbezier_primitive_options* options) {
   return answer(__func__, [&] {
     require_number(indices, "indices");
     std::size_t size = 0;
-    require_ok(strip_size(object_of(layout, kLayout), size, {.threads = threads}), about(""));
+    const Primitives how = primitives_of(options);
+    require_ok(strip_size(object_of(layout, kLayout), size, how.options, how.patches), about(""));
     *indices = size;
   });
 }
 
 simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout, size_t* clusters,
-                                          size_t* vertices, size_t* triangles, int32_t threads) {
+                                          size_t* vertices, size_t* triangles,
+                                          const simdbezier_primitive_options* options) {
   return answer(__func__, [&] {
     require_number(clusters, "clusters");
     require_number(vertices, "vertices");
     require_number(triangles, "triangles");
     ClusterSize size;
-    require_ok(cluster_size(object_of(layout, kLayout), size, {.threads = threads}), about(""));
+    const Primitives how = primitives_of(options);
+    require_ok(cluster_size(object_of(layout, kLayout), size, how.options, how.patches), about(""));
     *clusters = size.clusters;
     *vertices = size.vertices;
     *triangles = size.triangles;
@@ -151,11 +157,12 @@ simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout
                                             simdbezier_cluster* clusters, size_t clusters_length,
                                             uint32_t* vertices, size_t vertices_length,
                                             uint8_t* corners, size_t corners_length,
-                                            int32_t threads) {
+                                            const simdbezier_primitive_options* options) {
   return answer(__func__, [&] {
     const ClusterOutputs out{in_place<MeshCluster>(SIMDBEZIER_ARRAY(clusters)),
                              SIMDBEZIER_ARRAY(vertices), SIMDBEZIER_ARRAY(corners)};
-    require_ok(write_clusters(object_of(layout, kLayout), out, {.threads = threads}),
+    const Primitives how = primitives_of(options);
+    require_ok(write_clusters(object_of(layout, kLayout), out, how.options, how.patches),
                about("clusters, vertices or corners"));
   });
 }

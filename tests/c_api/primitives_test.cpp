@@ -111,14 +111,14 @@ TYPED_TEST(CMesh, HasPolygons) {
 
 TYPED_TEST(CMesh, HasStrips) {
   std::size_t indices = 0;
-  EXPECT_C_OK(simdbezier_strip_size(this->c_layout_, &indices, 0));
+  EXPECT_C_OK(simdbezier_strip_size(this->c_layout_, &indices, nullptr));
   std::vector<std::uint16_t> expected(indices);
   std::vector<std::uint16_t> got(indices);
   std::vector<std::uint32_t> wide(indices);
   ASSERT_TRUE(write_strips(this->layout_, std::span(expected)));
-  EXPECT_C_OK(simdbezier_write_strips_u16(this->c_layout_, got.data(), indices, 0));
+  EXPECT_C_OK(simdbezier_write_strips_u16(this->c_layout_, got.data(), indices, nullptr));
   expect_same_bits(got, expected, "strips");
-  EXPECT_C_OK(simdbezier_write_strips_u32(this->c_layout_, wide.data(), indices, 0));
+  EXPECT_C_OK(simdbezier_write_strips_u32(this->c_layout_, wide.data(), indices, nullptr));
   for (std::size_t k = 0; k < indices; ++k) {
     const bool ends = expected[k] == std::numeric_limits<std::uint16_t>::max();
     ASSERT_EQ(wide[k], ends ? std::numeric_limits<std::uint32_t>::max() : expected[k]);
@@ -131,7 +131,7 @@ TYPED_TEST(CMesh, HasClusters) {
   std::size_t clusters = 0;
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  EXPECT_C_OK(simdbezier_cluster_size(this->c_layout_, &clusters, &vertices, &triangles, 0));
+  EXPECT_C_OK(simdbezier_cluster_size(this->c_layout_, &clusters, &vertices, &triangles, nullptr));
   ASSERT_EQ(clusters, size.clusters);
   std::vector<MeshCluster> expected(clusters);
   std::vector<simdbezier_cluster> got(clusters);
@@ -141,11 +141,25 @@ TYPED_TEST(CMesh, HasClusters) {
   std::vector<std::uint8_t> c_corners(3 * triangles);
   ASSERT_TRUE(write_clusters(this->layout_, {expected, numbers, corners}));
   EXPECT_C_OK(simdbezier_write_clusters(this->c_layout_, got.data(), clusters, c_numbers.data(),
-                                        vertices, c_corners.data(), c_corners.size(), 0));
+                                        vertices, c_corners.data(), c_corners.size(), nullptr));
   expect_same_bits(c_numbers, numbers, "vertices of clusters");
   expect_same_bits(c_corners, corners, "corners of clusters");
   EXPECT_EQ(got.back().triangles, expected.back().triangles);
   EXPECT_EQ(got.back().patch, expected.back().patch);
+
+  auto second = sized<simdbezier_primitive_options>();
+  second.first_patch = second.patch_count = 1;
+  ASSERT_TRUE(cluster_size(this->layout_, size, {}, {1, 1}));
+  EXPECT_C_OK(simdbezier_cluster_size(this->c_layout_, &clusters, &vertices, &triangles, &second));
+  EXPECT_EQ(clusters, size.clusters);
+  EXPECT_C_OK(simdbezier_write_clusters(this->c_layout_, got.data(), clusters, c_numbers.data(),
+                                        vertices, c_corners.data(), 3 * triangles, &second));
+  EXPECT_EQ(got.front().patch, 1U);
+  std::size_t strips = 0;
+  std::size_t indices = 0;
+  ASSERT_TRUE(strip_size(this->layout_, strips, {}, {1, 1}));
+  EXPECT_C_OK(simdbezier_strip_size(this->c_layout_, &indices, &second));
+  EXPECT_EQ(indices, strips);
 }
 
 } // namespace

@@ -158,6 +158,57 @@ TEST(MeshPrimitives, polygons_of_some_patches_are_those_of_all) {
   }
 }
 
+TEST(MeshPrimitives, strips_and_clusters_of_some_patches_are_those_of_all) {
+  for (const Case& one : cases()) {
+    SCOPED_TRACE(one.name);
+    std::size_t all = 0;
+    ASSERT_EQ(strip_size(one.layout, all), Status::ok);
+    std::vector<std::uint32_t> strips(all);
+    ASSERT_EQ(write_strips(one.layout, std::span(strips)), Status::ok);
+    ClusterSize size;
+    ASSERT_EQ(cluster_size(one.layout, size), Status::ok);
+    std::vector<MeshCluster> clusters(size.clusters);
+    std::vector<std::uint32_t> vertices(size.vertices);
+    std::vector<std::uint8_t> corners(3 * size.triangles);
+    ASSERT_EQ(write_clusters(one.layout, {clusters, vertices, corners}), Status::ok);
+    std::vector<std::uint32_t> found;
+    std::vector<std::uint32_t> found_vertices;
+    std::vector<std::uint8_t> found_corners;
+    std::size_t cluster = 0;
+    std::size_t patch = 0;
+    for (; one.layout.first_triangle(patch) < one.layout.size().triangles; ++patch) {
+      const SetRange range{patch, 1};
+      ASSERT_EQ(strip_size(one.layout, all, {.threads = 1}, range), Status::ok);
+      std::vector<std::uint32_t> part(all);
+      ASSERT_EQ(write_strips(one.layout, std::span(part), {.threads = 1}, range), Status::ok);
+      found.insert(found.end(), part.begin(), part.end());
+      ASSERT_EQ(cluster_size(one.layout, size, {.threads = 1}, range), Status::ok);
+      std::vector<MeshCluster> some(size.clusters);
+      std::vector<std::uint32_t> numbers(size.vertices);
+      std::vector<std::uint8_t> places(3 * size.triangles);
+      ASSERT_EQ(write_clusters(one.layout, {some, numbers, places}, {.threads = 1}, range),
+                Status::ok);
+      for (const MeshCluster& own : some) {
+        ASSERT_EQ(own.patch, patch);
+        ASSERT_EQ(own.first_vertex + found_vertices.size(), clusters.at(cluster).first_vertex);
+        ASSERT_EQ(3 * own.first_triangle + found_corners.size(),
+                  3 * clusters.at(cluster++).first_triangle);
+      }
+      found_vertices.insert(found_vertices.end(), numbers.begin(), numbers.end());
+      found_corners.insert(found_corners.end(), places.begin(), places.end());
+    }
+    EXPECT_EQ(found, strips);
+    EXPECT_EQ(found_vertices, vertices);
+    EXPECT_EQ(found_corners, corners);
+    const SetRange beyond{patch + 1, 1};
+    EXPECT_EQ(strip_size(one.layout, all, {}, beyond), Status::bad_patch_range);
+    EXPECT_EQ(write_strips(one.layout, std::span(strips), {}, beyond), Status::bad_patch_range);
+    EXPECT_EQ(cluster_size(one.layout, size, {}, beyond), Status::bad_patch_range);
+    EXPECT_EQ(write_clusters(one.layout, {clusters, vertices, corners}, {}, beyond),
+              Status::bad_patch_range);
+  }
+}
+
 TEST(MeshPrimitives, strips_are_the_triangles) {
   constexpr std::uint32_t kRestart = 0xffffffff;
   for (const Case& one : cases()) {

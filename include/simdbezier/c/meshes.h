@@ -6,13 +6,13 @@
 
 SIMDBEZIER_BEGIN_C
 
-// The patches whose triangles or polygons are written, and how. Null: all patches.
+// The patches whose primitives are written, and how. Null: all patches.
 typedef struct simdbezier_primitive_options {
   size_t struct_size;
   size_t first_patch;
   size_t patch_count;                 // 0: all from first_patch on
   int32_t threads;                    // as in simdbezier_options
-  simdbezier_destination destination; // of triangles; polygons are never streamed
+  simdbezier_destination destination; // of triangles; others are never streamed
 } simdbezier_primitive_options;
 
 // write_triangles(): three numbers a triangle. `length` counts elements, as everywhere.
@@ -36,13 +36,14 @@ SIMDBEZIER_API simdbezier_status simdbezier_write_polygons_u16(
 
 // strip_size(), write_strips(): the largest index ends a strip.
 SIMDBEZIER_API simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout,
-                                                       size_t* indices, int32_t threads);
-SIMDBEZIER_API simdbezier_status simdbezier_write_strips_u32(const simdbezier_mesh_layout* layout,
-                                                             uint32_t* indices, size_t length,
-                                                             int32_t threads);
-SIMDBEZIER_API simdbezier_status simdbezier_write_strips_u16(const simdbezier_mesh_layout* layout,
-                                                             uint16_t* indices, size_t length,
-                                                             int32_t threads);
+                                                       size_t* indices,
+                                                       const simdbezier_primitive_options* options);
+SIMDBEZIER_API simdbezier_status
+simdbezier_write_strips_u32(const simdbezier_mesh_layout* layout, uint32_t* indices, size_t length,
+                            const simdbezier_primitive_options* options);
+SIMDBEZIER_API simdbezier_status
+simdbezier_write_strips_u16(const simdbezier_mesh_layout* layout, uint16_t* indices, size_t length,
+                            const simdbezier_primitive_options* options);
 
 // kMostClusterTriangles, kMostClusterVertices.
 enum { SIMDBEZIER_MOST_CLUSTER_TRIANGLES = 128, SIMDBEZIER_MOST_CLUSTER_VERTICES = 128 };
@@ -57,15 +58,13 @@ typedef struct simdbezier_cluster {
 } simdbezier_cluster;
 
 // cluster_size(), write_clusters(): corners has three values a triangle.
-SIMDBEZIER_API simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout,
-                                                         size_t* clusters, size_t* vertices,
-                                                         size_t* triangles, int32_t threads);
-SIMDBEZIER_API simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout,
-                                                           simdbezier_cluster* clusters,
-                                                           size_t clusters_length,
-                                                           uint32_t* vertices,
-                                                           size_t vertices_length, uint8_t* corners,
-                                                           size_t corners_length, int32_t threads);
+SIMDBEZIER_API simdbezier_status
+simdbezier_cluster_size(const simdbezier_mesh_layout* layout, size_t* clusters, size_t* vertices,
+                        size_t* triangles, const simdbezier_primitive_options* options);
+SIMDBEZIER_API simdbezier_status simdbezier_write_clusters(
+    const simdbezier_mesh_layout* layout, simdbezier_cluster* clusters, size_t clusters_length,
+    uint32_t* vertices, size_t vertices_length, uint8_t* corners, size_t corners_length,
+    const simdbezier_primitive_options* options);
 
 // MeshOutputs: u as x and v as y of `parameters`.
 typedef struct simdbezier_mesh_outputs {

@@ -76,20 +76,21 @@ Status polygon_sizes(const MeshLayout& layout, const PatchRange& patches, int th
   });
 }
 
-Status strip_sizes(const MeshLayout& layout, int threads, std::vector<std::size_t>& sizes) {
-  return sum_sizes(layout, PatchRange(layout), threads, sizes,
-                   [](auto, const CellCutter& cells, bool turned) {
-                     StripSink<std::uint32_t> sink(nullptr, turned);
-                     cells.cut(sink);
-                     sink.end_strip();
-                     return sink.indices();
-                   });
+Status strip_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
+                   std::vector<std::size_t>& sizes) {
+  return sum_sizes(layout, patches, threads, sizes, [](auto, const CellCutter& cells, bool turned) {
+    StripSink<std::uint32_t> sink(nullptr, turned);
+    cells.cut(sink);
+    sink.end_strip();
+    return sink.indices();
+  });
 }
 
 constexpr std::uint32_t kClusterWidth = 8;
 
-Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterSize>& sizes) {
-  return sum_sizes(layout, PatchRange(layout), threads, sizes,
+Status cluster_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
+                     std::vector<ClusterSize>& sizes) {
+  return sum_sizes(layout, patches, threads, sizes,
                    [](std::size_t patch, const CellCutter& cells, bool turned) {
                      ClusterSink sink(nullptr, {}, static_cast<std::uint32_t>(patch), turned);
                      cells.cut_in_bands(kClusterWidth, sink);
@@ -98,123 +99,126 @@ Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterS
                    });
 }
 
+/// use(range, sizes) with what sizes_of() counts in some patches, unless these are refused.
+template <typename Size, typename Use>
+Status with_sizes(const MeshLayout& layout, SetRange patches, int threads,
+                  Status (*sizes_of)(const MeshLayout&, const PatchRange&, int, std::vector<Size>&),
+                  const Use& use) noexcept {
+  try {
+    PatchRange range;
+    if (!range.resolve(layout, patches)) {
+      return Status::bad_patch_range;
+    }
+    std::vector<Size> sizes;
+    const Status status = sizes_of(layout, range, threads, sizes);
+    return status ? use(range, sizes) : status;
+  } catch (const std::bad_alloc&) {
+    return Status::out_of_memory;
+  }
+}
+
+/// Hands the size of all of them to the caller.
+template <typename Size>
+auto total_to(Size& size) {
+  return [&size](const PatchRange&, const std::vector<Size>& sizes) {
+    size = sizes.back();
+    return Status(Status::ok);
+  };
+}
+
 } // namespace
 } // namespace detail
 
 Status polygon_size(const MeshLayout& layout, PolygonSize& size, const RunOptions& options,
-                    SetRange patches) noexcept try {
-  detail::PatchRange range;
-  if (!range.resolve(layout, patches)) {
-    return Status::bad_patch_range;
-  }
-  std::vector<PolygonSize> sizes;
-  const Status status = detail::polygon_sizes(layout, range, options.threads, sizes);
-  size = status == Status::ok ? sizes.back() : size;
-  return status;
-} catch (const std::bad_alloc&) {
-  return Status::out_of_memory;
+                    SetRange patches) noexcept {
+  return detail::with_sizes(layout, patches, options.threads, detail::polygon_sizes,
+                            detail::total_to(size));
 }
 
 template <typename Index>
 Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
                       std::span<std::uint8_t> sizes, const RunOptions& options,
-                      SetRange patches) noexcept try {
-  detail::PatchRange range;
-  if (!range.resolve(layout, patches)) {
-    return Status::bad_patch_range;
-  }
-  std::vector<PolygonSize> before;
-  Status status = detail::polygon_sizes(layout, range, options.threads, before);
-  if (status == Status::ok) {
-    status = detail::check_indices<Index>(layout, indices, before.back().indices);
-  }
-  if (status == Status::ok && sizes.size() < before.back().polygons) {
-    status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
-  }
-  if (status != Status::ok) {
-    return status;
-  }
-  return detail::for_cells(layout, range, options.threads,
-                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-                             const PolygonSize& place = before[patch - range.first];
-                             detail::PolygonSink<Index> sink(indices.data() + place.indices,
-                                                             sizes.data() + place.polygons, turned);
-                             cells.cut(sink);
-                           });
-} catch (const std::bad_alloc&) {
-  return Status::out_of_memory;
+                      SetRange patches) noexcept {
+  const auto write = [&](const detail::PatchRange& range, const std::vector<PolygonSize>& before) {
+    Status status = detail::check_indices<Index>(layout, indices, before.back().indices);
+    if (status && sizes.size() < before.back().polygons) {
+      status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
+    }
+    if (!status || before.back().polygons == 0) {
+      return status;
+    }
+    return detail::for_cells(layout, range, options.threads,
+                             [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                               const PolygonSize& place = before[patch - range.first];
+                               detail::PolygonSink<Index> sink(indices.data() + place.indices,
+                                                               sizes.data() + place.polygons,
+                                                               turned);
+                               cells.cut(sink);
+                             });
+  };
+  return detail::with_sizes(layout, patches, options.threads, detail::polygon_sizes, write);
 }
 
-Status strip_size(const MeshLayout& layout, std::size_t& indices,
-                  const RunOptions& options) noexcept try {
-  std::vector<std::size_t> sizes;
-  const Status status = detail::strip_sizes(layout, options.threads, sizes);
-  indices = status == Status::ok ? sizes.back() : indices;
-  return status;
-} catch (const std::bad_alloc&) {
-  return Status::out_of_memory;
+Status strip_size(const MeshLayout& layout, std::size_t& indices, const RunOptions& options,
+                  SetRange patches) noexcept {
+  return detail::with_sizes(layout, patches, options.threads, detail::strip_sizes,
+                            detail::total_to(indices));
 }
 
 template <typename Index>
-Status write_strips(const MeshLayout& layout, std::span<Index> indices,
-                    const RunOptions& options) noexcept try {
-  std::vector<std::size_t> before;
-  Status status = detail::strip_sizes(layout, options.threads, before);
-  if (status == Status::ok) {
-    status = detail::check_indices<Index>(layout, indices, before.back());
-  }
-  if (status != Status::ok) {
-    return status;
-  }
-  return detail::for_cells(layout, detail::PatchRange(layout), options.threads,
-                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-                             detail::StripSink<Index> sink(indices.data() + before[patch], turned);
-                             cells.cut(sink);
-                             sink.end_strip();
-                           });
-} catch (const std::bad_alloc&) {
-  return Status::out_of_memory;
+Status write_strips(const MeshLayout& layout, std::span<Index> indices, const RunOptions& options,
+                    SetRange patches) noexcept {
+  const auto write = [&](const detail::PatchRange& range, const std::vector<std::size_t>& before) {
+    const Status status = detail::check_indices<Index>(layout, indices, before.back());
+    if (!status || before.back() == 0) {
+      return status;
+    }
+    return detail::for_cells(layout, range, options.threads,
+                             [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                               detail::StripSink<Index> sink(
+                                   indices.data() + before[patch - range.first], turned);
+                               cells.cut(sink);
+                               sink.end_strip();
+                             });
+  };
+  return detail::with_sizes(layout, patches, options.threads, detail::strip_sizes, write);
 }
 
-Status cluster_size(const MeshLayout& layout, ClusterSize& size, const RunOptions& options) noexcept
-    try {
-  std::vector<ClusterSize> sizes;
-  const Status status = detail::cluster_sizes(layout, options.threads, sizes);
-  size = status == Status::ok ? sizes.back() : size;
-  return status;
-} catch (const std::bad_alloc&) {
-  return Status::out_of_memory;
+Status cluster_size(const MeshLayout& layout, ClusterSize& size, const RunOptions& options,
+                    SetRange patches) noexcept {
+  return detail::with_sizes(layout, patches, options.threads, detail::cluster_sizes,
+                            detail::total_to(size));
 }
 
 Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
-                      const RunOptions& options) noexcept try {
-  std::vector<ClusterSize> before;
-  const Status status = detail::cluster_sizes(layout, options.threads, before);
-  const ClusterSize& all = before.back();
-  if (status != Status::ok || all.clusters == 0) {
-    return status;
-  }
-  if (out.clusters.data() == nullptr || out.vertices.data() == nullptr ||
-      out.corners.data() == nullptr) {
-    return Status::null_output;
-  }
-  if (out.clusters.size() < all.clusters || out.vertices.size() < all.vertices ||
-      out.corners.size() / 3 < all.triangles) {
-    return Status::output_too_small;
-  }
-  if (all.vertices > std::numeric_limits<std::uint32_t>::max() ||
-      all.triangles > std::numeric_limits<std::uint32_t>::max()) {
-    return Status::size_overflow;
-  }
-  return detail::for_cells(layout, detail::PatchRange(layout), options.threads,
-                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-                             detail::ClusterSink sink(&out, before[patch],
-                                                      static_cast<std::uint32_t>(patch), turned);
-                             cells.cut_in_bands(detail::kClusterWidth, sink);
-                             sink.end_cluster();
-                           });
-} catch (const std::bad_alloc&) {
-  return Status::out_of_memory;
+                      const RunOptions& options, SetRange patches) noexcept {
+  const auto write = [&](const detail::PatchRange& range,
+                         const std::vector<ClusterSize>& before) -> Status {
+    const ClusterSize& all = before.back();
+    if (all.clusters == 0) {
+      return Status::ok;
+    }
+    if (out.clusters.data() == nullptr || out.vertices.data() == nullptr ||
+        out.corners.data() == nullptr) {
+      return Status::null_output;
+    }
+    if (out.clusters.size() < all.clusters || out.vertices.size() < all.vertices ||
+        out.corners.size() / 3 < all.triangles) {
+      return Status::output_too_small;
+    }
+    if (all.vertices > std::numeric_limits<std::uint32_t>::max() ||
+        all.triangles > std::numeric_limits<std::uint32_t>::max()) {
+      return Status::size_overflow;
+    }
+    return detail::for_cells(layout, range, options.threads,
+                             [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                               detail::ClusterSink sink(&out, before[patch - range.first],
+                                                        static_cast<std::uint32_t>(patch), turned);
+                               cells.cut_in_bands(detail::kClusterWidth, sink);
+                               sink.end_cluster();
+                             });
+  };
+  return detail::with_sizes(layout, patches, options.threads, detail::cluster_sizes, write);
 }
 
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
@@ -224,8 +228,8 @@ template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::
                                               std::span<std::uint8_t>, const RunOptions&,
                                               SetRange) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint32_t>,
-                                            const RunOptions&) noexcept;
+                                            const RunOptions&, SetRange) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint16_t>,
-                                            const RunOptions&) noexcept;
+                                            const RunOptions&, SetRange) noexcept;
 
 } // namespace simdbezier
