@@ -122,18 +122,15 @@ template <typename T>
   return samples.curve.size();
 }
 
-/// The outputs of a call: at least one vector or the curvature.
-///
-/// The tangent is d1 / |d1|. If d1 is zero (a cusp, repeated control points), the tangent has the
-/// direction of the first Taylor coefficient of d1 that is not zero, on the way to the curve's
-/// middle (upwards from t = 1/2): SampleStatus::limit. If all of them are zero, the curve is a
-/// point and the tangent zero: SampleStatus::degenerate. This is decided exactly, for the control
-/// points as given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0
-/// on a straight line or a point. For t in [0,1], tangents and curvatures are never nan. Both need
-/// 2 or 3 components. Curvatures of regular samples have no error bound: they are computed from the
-/// rounded d1 and d2 and divided by |d1|^3, and may have no correct digit near a cusp or on nearly
-/// straight curves.
-/// Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
+/// The outputs of a call: at least one vector or the curvature. Tangents and curvatures need two or
+/// three components, and are never nan for t in [0,1]. If d1 is zero (a cusp, repeated control
+/// points), the tangent has the direction of the first Taylor coefficient of d1 that is not zero on
+/// the way to the curve's middle (upwards from t = 1/2): SampleStatus::limit. This is decided
+/// exactly, for the control points as given. The curvature is its limit on that way: +infinity at a
+/// usual cusp, 0 on a straight line. If all coefficients are zero, the curve is a point, and both
+/// are zero: SampleStatus::degenerate. Curvatures of regular samples have no error bound, because
+/// rounded d1 and d2 are divided by |d1|^3: near cusps and on nearly straight curves no digit may
+/// be correct. Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {
   Vectors<T> position;
@@ -219,17 +216,15 @@ template <typename S>
 }
 
 /// Computes the control points Q_j(u0) = sum_i P[j][i] B_i(u0) of every patch's curve S(u0, .).
-/// nets:     S = float or double, any degrees; with weights, the points are those of the rational
-///           curve, in the form (cartesian, homogeneous) of the nets.
+/// nets:     S = float or double; with weights, the points have them in the form of the nets.
 /// u0:       any finite value; 0 and 1 give the boundary's points exactly.
 /// points:   count * (degree_v + 1) * (components + 1 with weights) values, packed as in
 ///           ControlCurves::packed(); may not overlap the nets. No alignment needed.
 /// Numerics: de Casteljau's algorithm in double, (1-t) a + t b at every step, with the same bits
 ///           always; a reversed net gives them at 1 - u0 if that is exact. Error at most 2
 ///           (degree_u + 1) 2^-53 max|P| (with weights: of the homogeneous points) for u0 in [0,1].
-/// Allocation: none.
 /// Returns:  ok | the statuses of views | null_output | output_too_small | bad_weight |
-///           non_finite_input (a value that is not finite, u0 included) | overlapping_outputs
+///           non_finite_input (also of u0) | overlapping_outputs. Allocation: none.
 /// Cost:     degree_u (degree_u + 1) (degree_v + 1) / 2 interpolations a component and patch.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report iso_u(const ControlNets<S>& nets, double u0,
@@ -254,18 +249,16 @@ template <typename T, typename S>
                                           CurveSet<T>& curves,
                                           const PackOptions& options = {}) noexcept;
 
-/// Packs the iso-parametric curve of every patch of a set, from the control points that it keeps as
-/// they were given, with the PackOptions::relative_to of the set.
-/// patches:    of one shape. The nets that they were packed from need not exist any more.
-/// options:    relative_to is ignored; local_origin is not taken from the set.
-/// Numerics:   as the call above on the nets themselves. At 0 and 1 a set of double that was packed
-///             with the same local_origin gives the bits of its edges, and one of float gives them
-///             but for their rounding. If some nets had Cartesian and some homogeneous weights, the
-///             points are divided by their weights at the end.
+/// Packs the iso-parametric curve of every patch of a set, which keeps its control points as they
+/// were given; PackOptions::relative_to is that of the set, local_origin is not.
+/// patches:    of one shape; their nets need not exist any more.
+/// Numerics:   as the call above on the nets. At 0 and 1 a set of double with the same local_origin
+///             gives the bits of its edges, and one of float gives them but for their rounding. If
+///             the forms of weights differ, points are divided by their weights at the end.
 /// Allocation: (degree + 1) (components + 1 with weights) doubles a patch, and the curves.
-/// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0, or points that
-///             are infinite there) | bad_weight (u0 is outside of [0,1], and a weight may lose its
-///             sign) | coefficient_overflow | size_overflow | unsupported_isa | out_of_memory.
+/// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0, or points there)
+///             | bad_weight (u0 is outside of [0,1], and a weight may lose its sign) |
+///             coefficient_overflow | size_overflow | unsupported_isa | out_of_memory.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report iso_u(const PatchSet<T>& patches, double u0,
                                           CurveSet<T>& curves,

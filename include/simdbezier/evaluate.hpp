@@ -88,28 +88,21 @@ struct DerivativeOutputs {
 };
 
 /// Evaluates derivatives at single samples, in any order: S^(a,b) = d^(a+b) S / du^a dv^b.
-///
-/// Polynomials take repeated synthetic division in x = 2u-1, then in y, and give zero for an order
-/// above the degree. Rational patches S = H / w take the quotient rule of any order,
-///     S^(a,b) = (H^(a,b) - sum_(i,j)>(0,0) C(a,i) C(b,j) w^(i,j) S^(a-i,b-j)) / w.
-/// Shapes:   component c of sample k of a derivative is its c-th pointer [k * stride], as in
-///           Outputs. Sets may mix shapes. No derivative, or one without pointers, is null_output.
-/// Aliasing: outputs may not overlap each other, the inputs or the list of derivatives; two may be
-///           members of one vertex. Options::destination has no effect.
-/// Edges:    derivatives along an edge, (0,b) at u = 0 or 1 and (a,0) at v = 0 or 1, come from that
-///           edge's control points alone. Both sides get equal bits, up to the sign that the edge's
-///           orientation gives them; in the middle of an edge of degree 6 or more, where two halves
-///           meet, they agree only within the bounds.
-/// Bits:     (0,0), (1,0), (0,1), (2,0), (1,1), (0,2) have the bits of evaluate(), unless a result
-///           or a sum on the way to it leaves the normal range; (2,0) and (0,2) of rational patches
-///           agree only within the bounds. The other derivatives of a call change no bit.
+/// Formula:  polynomials by repeated synthetic division in x = 2u-1, then in y; 0 above the degree.
+///           Rational patches S = H / w by the quotient rule of any order, S^(a,b) = (H^(a,b) -
+///           sum_(i,j)>(0,0) C(a,i) C(b,j) w^(i,j) S^(a-i,b-j)) / w.
+/// Outputs:  as in Outputs; they may not overlap the list of derivatives either. No derivative, or
+///           one without pointers, is null_output. Options::destination has no effect.
+/// Edges:    derivatives along an edge come from that edge's control points alone, so that both
+///           sides have equal bits up to the sign of its direction. Where the halves of an edge of
+///           degree 6 or more meet, they agree only within the bounds.
+/// Bits:     orders that evaluate() has too have its bits, unless a result or a sum on the way
+///           leaves the normal range; (2,0) and (0,2) of rational patches agree within the bounds.
 /// Accuracy: docs/accuracy.md. What T cannot hold is infinite or nan.
 /// Source:   L. Piegl and W. Tiller, The NURBS Book, 2nd ed., A3.6 (computed in another way), A4.4.
-/// Cost:     polynomial: A n (m + B) multiply-adds a component, A and B the highest orders asked
-///           for plus one; rational: 1/4 A^2 B^2 more. Samples of one patch are computed together
-///           if at most some hundreds of others lie between them.
-/// Returns:  as evaluate() for Samples; also bad_degree for an order below 0 or above
-///           kMostDerivativeOrder.
+/// Cost:     A n (m + B) multiply-adds a component, A and B the highest orders asked for plus one;
+///           rational: 1/4 A^2 B^2 more. Samples of one patch should lie near one another.
+/// Returns:  as evaluate() for Samples; bad_degree: an order is not 0 to kMostDerivativeOrder.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_derivatives(
     const PatchSet<T>& set, const Samples<T>& samples,

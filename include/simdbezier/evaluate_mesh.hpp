@@ -36,21 +36,16 @@ struct MeshOutputs {
 /// Evaluates the vertices that the patches of a range own; lay_out_mesh() says which these are.
 /// set:        the patches of the layout's topology, in the same order, with three components.
 /// out:        index 0 is MeshLayout::first_vertex() of the first patch of the range.
-/// patches:    all of them, or some: large meshes can be written piece by piece.
 /// Position:   on an edge and in a corner, that of the lowest patch there. If control points are
 ///             equal, all others have the same position bit for bit.
 /// Normal:     the sum of the unit normals of all patches that have the vertex, in ascending order
-///             of patch and side or corner, divided by its length. Normals of patches that the
-///             topology turned count reversed, zero ones add nothing. A patch is left out if its
-///             normals disagree with the first one's along the edge and it is not turned. If the
-///             sum is shorter than 0.001 of the number of normals, the first normal stays. On edges
-///             of more than two sides, all sides count.
-/// Order:      if the same patches get other numbers, these stay as they are: positions, if control
-///             points are equal; normals at inner points, and on edges of one side or two. Other
-///             normals may change by the rounding of their sum. The lowest patch decides if sides
-///             of an edge disagree (TopologyCounts::turned_edges), also in the edge's corners, and
-///             if a sum is too short: docs/tessellation.md.
-/// Creases:    split_creases() gives a vertex several numbers, split_parameters() one a patch.
+///             of patch and side or corner, over its length; those of turned patches are reversed.
+///             On an edge of two sides, a patch whose normals disagree with the first one's is left
+///             out unless it is turned. If the sum is shorter than 0.001 of the number of normals,
+///             the first normal stays.
+/// Order:      other numbers of the same patches change no position, if control points are equal,
+///             and no normal at inner points and on edges of one side or two; others change by the
+///             rounding of their sum. docs/tessellation.md says what the lowest patch decides.
 /// Returns:    ok | the statuses of outputs (bad_components: not three) and of running |
 ///             unequal_lengths (set and layout have other numbers of patches) | bad_patch_range.
 /// Allocation: scratch per thread, which grows with the most vertices on one patch's boundary.

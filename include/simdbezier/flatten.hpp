@@ -38,20 +38,17 @@ template <typename T>
 
 /// Chooses the fewest uniform points, 2 or more, with which every curve and its polyline are within
 /// its tolerance of each other; CurveGrids::n takes them.
-/// Formula:     n segments deviate by at most max |C''| / (8 n^2), and max |C''| is at most degree
-///              (degree - 1) times the largest second difference of control points.
-///              docs/tessellation.md has the proof and the form for weights. If weights are more
-///              than 4.5-fold apart, the distance of point sets may allow fewer segments. These are
-///              then taken: few, not always the fewest.
-/// points:      one value a curve, of any components. deviation: the certified distance, errors
-///              included; one value a curve, or empty. Both are undefined on an error.
-/// Determinism: the same on all machines, for any number of threads.
-/// Allocation:  none, except some control polygons per thread if weights are so far apart.
-/// Cost:        some 0.1 us a cubic.
-/// Returns:     ok | the statuses of views | non_finite_input | bad_weight | unequal_lengths (spans
-///              that are not one value a curve) | bad_tolerance (not above zero, or not above the
-///              curve's error, an error below zero, or more than most_points would be needed; the
-///              report names the curve) | out_of_memory.
+/// Formula:  n segments deviate by at most max |C''| / (8 n^2), bounded by second differences of
+///           control points; docs/tessellation.md has the proof and the form for weights. If these
+///           are more than 4.5-fold apart, few segments are chosen, not always the fewest.
+/// points:   one value a curve, of any components. deviation: the certified distance, errors
+///           included; one value a curve, or empty. Both are undefined on an error.
+/// Cost:     some 0.1 us a cubic. Allocation: none, except some control polygons per thread if
+///           weights are so far apart. Determinism: the same on all machines and threads.
+/// Returns:  ok | the statuses of views | non_finite_input | bad_weight | unequal_lengths (spans
+///           that are not one value a curve) | bad_tolerance (not above zero, or not above the
+///           curve's error, an error below zero, or more than most_points would be needed; the
+///           report names the curve) | out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report choose_polylines(const ControlCurves<S>& curves,
                                                      const FlattenOptions& options,

@@ -128,11 +128,9 @@ struct Mesh {
 
 /// Packs patches, joins edges, chooses rates, and numbers vertices; evaluates nothing.
 /// nets:    any views with three components, see find_topology(). They are read only here.
-/// Returns: in MeshPlan::report, what pack(), find_topology(), choose_rates() or certify_rates(),
-///          lay_out_mesh(), split_creases(), split_parameters() and split_edges() return, such as
-///          snap_too_large if TopologyOptions::snap leaves too little of a tolerance; bad_tolerance
-///          also if nothing says how fine the mesh is to be; bad_grid if a grid has fewer than 2
-///          samples or tolerances are given as well; out_of_memory.
+/// Returns: in MeshPlan::report, what the calls of these steps return; bad_tolerance also if
+///          nothing says how fine the mesh is to be; bad_grid if a grid has fewer than 2 samples or
+///          tolerances are given as well; out_of_memory.
 /// Memory:  what the plan holds, and working memory for edges and rates. A mesh is planned whole;
 ///          vertices and triangles can then be had range by range.
 /// Threads: MeshOptions::threads. Cost: find_topology() and choose_rates(), see there.

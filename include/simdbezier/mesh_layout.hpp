@@ -94,17 +94,15 @@ private:
                                                       std::span<std::uint32_t> cells_v,
                                                       std::size_t& raised) noexcept;
 
-/// Numbers the vertices of the mesh in which patch p has cells_u[p] x cells_v[p] cells.
-///
-/// An edge carries the union of the parameters i/n of all of its sides, so that no neighbour's rate
-/// can leave a gap. Vertices are numbered patch by patch: the corners that the patch owns, inner
-/// points of edges that it owns (v0, v1, u0, u1, in the direction of its parameter), then its inner
-/// points row by row. The lowest of the patches that share a vertex owns it, on its first edge.
-/// Triangles with one vertex twice do not exist and do not count: cells at sides that are points,
-/// or between neighbouring sides that are one edge, have fewer than two. Without
-/// separate_vertices(), a patch whose points are all one vertex may have no triangle.
-/// Allocation: about 40 bytes a patch and 8 an edge.
-/// Cost:    some 50 ns a patch. Determinism: a function of the topology and the rates.
+/// Numbers the vertices of the mesh in which patch p has cells_u[p] x cells_v[p] cells. An edge
+/// carries the union of the parameters i/n of all of its sides, so that no neighbour's rate can
+/// leave a gap. The lowest of the patches that share a vertex owns it, on its first edge. Vertices
+/// are numbered patch by patch: corners that the patch owns, inner points of its own edges (v0, v1,
+/// u0, u1, in the direction of its parameter), inner points row by row. Triangles with one vertex
+/// twice do not count: cells at sides that are points, or between neighbouring sides that are one
+/// edge, have fewer than two, and without separate_vertices() a patch may have none.
+/// Cost:    some 50 ns a patch. Allocation: about 40 bytes a patch and 8 an edge. Determinism: a
+///          function of the topology and the rates.
 /// Returns: ok | bad_rates (not one value a patch, or outside of 1 to kMostSegments) |
 ///          size_overflow (2^32 vertices and more) | out_of_memory.
 [[nodiscard]] SIMDBEZIER_API Status lay_out_mesh(const Topology& topology, const PatchRates& rates,
@@ -211,16 +209,14 @@ struct ClusterOutputs {
 //
 // A part consists of patches of its own and of ghosts: all other patches that have a corner in a
 // place where an own one has a corner. Together, in the order of the whole model, they are a model
-// for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(). For own patches these
-// give what the whole model would give, bit for bit, except that vertices are numbered from 0 in
-// each part. In the whole mesh, a part's numbers begin at the number of vertices that own patches
-// of earlier parts own. Ghosts before the own patches belong to such a part, which tells where
-// their vertices begin (PatchVertices).
+// for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(), which give for own
+// patches what the whole model would give, bit for bit, but number vertices from 0 in each part. In
+// the whole mesh, a part's numbers begin at the number of vertices that own patches of earlier
+// parts own; these tell where the vertices of ghosts begin (PatchVertices).
 //
-// Rates depend on the patch alone and on diagonals that the topology forces, except for entangled
-// patches (Topology::is_entangled()). Both properties of a patch are known in a part that contains
-// all of its neighbours. Rates of ghosts come from the part that they belong to; or the model of a
-// part also contains the ghosts of its ghosts, and those of entangled patches.
+// Rates depend on the patch and on diagonals that the topology forces, both known in a part that
+// contains all of its neighbours, but for entangled patches (Topology::is_entangled()). Rates of
+// ghosts come from their own part, or the model also contains the ghosts of ghosts.
 
 /// Keys by which corners and edges of patches in different memories are compared.
 struct PatchKeys {

@@ -87,25 +87,22 @@ struct PackOptions {
 };
 
 /// Packs the patches of control nets into a set, which evaluate() takes.
-/// Formula:    C = A P A^T. A changes the basis from Bernstein to powers of the centred parameter;
-///             edge polynomials come from each edge's own control points; corners. Directions
-///             of degree 6 or more are first halved. Rational patches are packed as homogeneous
-///             ones.
-/// nets:       S = float or double; the memory may be freed after the call. A few views of many
-///             patches are best: a view of one patch costs as much as a view of 8.
-/// set:        patches are numbered consecutively through all nets. See also reuse_memory.
+/// Formula:    C = A P A^T, from Bernstein to powers of the centred parameter; polynomials of edges
+///             from each edge's own control points. Directions of degree 6 or more are halved
+/// first. nets:       S = float or double; the memory may be freed after the call. A view of one
+///             patch costs as much as a view of 8. Patches are numbered through all nets.
 /// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results
 ///             do not depend on the instruction set, threads or other patches. -0 becomes +0.
 /// Allocation: one block for each shape and form of weights: for bicubic patches in space 113 T and
-///             48 S a patch, since control points are kept as given; four times the control points
-///             and more if directions are cut. About 150 KiB of stack per thread.
+///             48 S a patch, four times the control points and more if directions are halved. About
+///             150 KiB of stack per thread.
 /// Returns:    ok | the statuses of views | bad_components (also: not the same in all nets) |
 ///             bad_weight (also: below the smallest normal T, or infinite as T) | non_finite_input
 ///             | coefficient_overflow | size_overflow (also: strides that lead beyond addressable
 ///             memory) | unsupported_isa | out_of_memory. A wrong SIMDBEZIER_ISA is ignored. The
 ///             report names the lowest patch at fault; for a fault of whole nets, their first one.
-/// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch
-///             in space. It grows with the cube of the degree; new memory costs several times that.
+/// Cost:       in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch, by the
+///             cube of the degree; new memory costs several times that.
 template <typename T, typename S>
 [[nodiscard]] Report pack(const ControlNets<S>& nets, PatchSet<T>& set,
                           const PackOptions& options = {}) noexcept;

@@ -81,13 +81,11 @@ template <typename T>
 /// Formula: pixels * depth / (focal_length * f). The depth is that of the nearest control point, at
 ///          least Camera::nearest; f is the secant of the angle between the axis and the picture's
 ///          corners. An orthographic camera has pixels / focal_length.
-/// Unseen:  a patch that is skipped, or wholly nearer than Camera::nearest, gets the diagonal of
-///          its control points' box, at least Camera::nearest. It then has as few cells as its
-///          edges allow, and meshes stay closed.
-/// out:     one value a patch, in the order of all views.
+/// Unseen:  a patch that is skipped, or nearer than Camera::nearest, gets the diagonal of its box,
+///          at least Camera::nearest: as few cells as its edges allow. Meshes stay closed.
+/// out:     one value a patch. Cost: one pass over the control points, on the caller's thread.
 /// Returns: ok | the statuses of views | bad_tolerance (pixels, or a member of the camera, that is
-///          not above zero and finite) | output_too_small.
-/// Cost:    one pass over the control points, on the caller's thread. Allocation: none.
+///          not above zero and finite) | output_too_small. Allocation: none.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> nets,
                                                      const Camera& camera, double pixels,
@@ -96,14 +94,12 @@ template <typename S>
 /// Chooses a small number of rows and columns of cells for every patch, and the diagonals of the
 /// cells, so that the triangles stay within the patch's tolerance. The rates depend on the patch's
 /// control points and tolerance, on which of its sides are shared, and on forced diagonals.
-/// separate_vertices() raises small rates if the mesh would be degenerate. The bound on the whole
-/// patch suggests a ratio of rows to columns, and only ratios near it are tried.
+/// separate_vertices() raises small rates if the mesh would be degenerate.
 /// Bound:       max |S - T| over a triangle is at most the largest value of 1/2 sum l_i l_j Q_ij
-///              over barycentric coordinates l. Q_ij is the largest second derivative of S along
-///              edge ij, taken over control vectors of the patch's quarters. No vertex that a
-///              neighbour adds to an edge can raise the bound. docs/tessellation.md has the proof,
-///              and closer bounds of rational patches, of weights that are products (cylinders,
-///              spheres, tori), and of uneven parameters or weights more than 4.5-fold apart.
+///              over barycentric coordinates l; Q_ij is the largest second derivative of S along
+///              edge ij, over control vectors of the patch's quarters. Vertices that a neighbour
+///              adds to an edge do not raise it. docs/tessellation.md has the proof, and closer
+///              bounds of rational patches, of weights that are products, and of uneven parameters.
 /// Source:      Filip, Magedson, Markot, Surface Algorithms Using Bounds on Derivatives, CAGD 3,
 ///              1986. Their bound uses the triangle inequality for the diagonal.
 /// Determinism: a function of the control points, and of rates that are kept; the same in each
@@ -115,11 +111,10 @@ template <typename S>
 ///              than most_segments needed) | bad_topology (found for other nets, see fits()) |
 ///              snap_too_large (snapping has taken more than half of a tolerance) | the statuses of
 ///              running. The report names the patch. Outputs are undefined on an error.
-/// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
-///              included. With weights, another degree or a forced diagonal (AVX2): 1 to 4 us up to
-///              degree 5, 15 us for degree 15, 35 us with weights; weights that are products add 2
-///              to 4 us up to degree 3, 100 us for degree 15. Uneven parameters add 5 us a cell of
-///              a bicubic patch, up to a second.
+/// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch, 0.65 us in double. On AVX2, other
+///              degrees and forced diagonals take 1 to 4 us up to degree 5 and 15 us for degree 15,
+///              with weights 35 us, or up to 100 us if these are products. Uneven parameters add 5
+///              us a cell of a bicubic patch, up to a second.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<S>> nets,
                                                  const Topology& topology,

@@ -128,19 +128,18 @@ template <typename S>
 /// Makes Bézier nets of spline surfaces, those of the first surface first.
 /// surfaces:   equal degrees, components and presence of weights.
 /// out:        as many nets as there are patches, of the surfaces' degrees and components, in other
-///             memory than theirs. Weights may be Cartesian or homogeneous, whichever form the
-///             surfaces have. Rational points that are one point whatever their weights (see
-///             Weights::homogeneous) stay one.
+///             memory than theirs; weights in either form. Rational points that are one point
+///             whatever their weights (see Weights::homogeneous) stay one.
 /// intervals:  of each patch; or empty.
-/// Allocation: tables of the knots, and degree_v + 2 lines of Bézier points a thread.
-/// Threads:    share the rows of spans of all surfaces.
 /// Returns:    ok | the statuses of views | null_output | output_too_small | bad_degree,
 ///             bad_components (also: not those of `out`) | bad_weight | bad_grid (too few points) |
 ///             bad_knots | bad_range | bad_tolerance | bad_patch_range (`out` has another number of
 ///             nets) | unequal_lengths (`intervals`) | overlapping_outputs | non_finite_input |
 ///             coefficient_overflow (a value, or a product w P, beyond 2^980 or, in float, 2^127)
 ///             | the statuses of running.
-/// Cost:       about (degree_u + 1) (degree_v + 1)^2 products and sums a channel and patch.
+/// Allocation: tables of the knots, and degree_v + 2 lines of Bézier points a thread; threads share
+///             the rows of spans. Cost: about (degree_u + 1) (degree_v + 1)^2 products and sums a
+///             channel and patch.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report to_bezier(std::span<const SplineSurface<T>> surfaces,
                                               const std::type_identity_t<MutableNets<T>>& out,
@@ -219,19 +218,17 @@ template <typename S>
 }
 
 /// Evaluates a spline surface on the grid of all (U[i], V[j]): sample (i, j) is j * U.size() + i.
-/// surface:    its knots, degrees and ranges are read, its points are not.
-/// set:        made by pack() or by way of to_bezier(); the surface's patches are those from
-///             `first_patch` on (else bad_patch_range).
-/// U, V:       as locate() takes them. Ascending ones are the fastest: those of one span are
-///             evaluated together. At knots, the patch that locate() takes counts.
-/// out:        as in evaluate(). Derivatives are by U and V: those of evaluate(), divided by powers
-///             of the intervals' lengths. Powers are formed in double and rounded to T; one that T
-///             cannot hold gives 0, infinite or nan. All else has the bits of evaluate() at the
-///             centred places of locate(), rounded to T. Exactly mirrored splines have bit-equal
-///             positions at mirrored parameters. Other outputs are bit-equal between knots; at a
-///             knot, one spline takes the right side and the other one the left side.
-/// Allocation: a few values for each of U and V.
-/// Returns:    what locate() and evaluate() return.
+/// surface: its knots, degrees and ranges are read, its points are not.
+/// set:     made by pack() or by way of to_bezier(); the surface's patches are those from
+///          `first_patch` on (else bad_patch_range).
+/// U, V:    as locate() takes them, which also says which patch counts at a knot. Ascending ones
+///          are the fastest: those of one span are evaluated together.
+/// out:     as in evaluate(), with its bits at the centred places of locate(), rounded to T.
+///          Derivatives are by U and V: divided by powers of the intervals' lengths, which are
+///          formed in double and rounded to T (0, infinite or nan if T cannot hold them).
+/// Bits:    exactly mirrored splines have bit-equal positions at mirrored parameters, and other
+///          outputs between knots; at a knot they take different sides.
+/// Returns: what locate() and evaluate() return. Allocation: a few values for each of U and V.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API Report
 evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,

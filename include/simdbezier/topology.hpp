@@ -88,15 +88,14 @@ private:
 /// Joins the edges of all patches with equal control points (find_adjacency()), and their corners,
 /// as meshes need them. Corners are joined through edges, not by their positions: corners that
 /// touch only in a point stay apart. An edge may have any number of sides.
-/// nets:       any views with three components; patches are numbered through, view after view.
-/// Threads:    RunOptions::threads. Corners of patches with distant numbers, snapping, and patches
-///             that are repeated or share more than a corner or an edge are work of a single one.
-/// Allocation: about 60 bytes a side. Determinism: a function of the control points and options.
-/// Cost:       some 0.2 to 0.7 us a patch. Thousands of patches that have the same four edges, or
-///             nan among their values, take time by the square of their number.
-/// Returns:    ok | the statuses of views (bad_components: not three) | bad_tolerance (a point_size
-///             or snap below 0, or nan) | not_orientable (if `orient` is asked for) | size_overflow
-///             (2^29 patches and more) | out_of_memory.
+/// nets:    any views with three components; patches are numbered through, view after view.
+/// Threads: distant corners, snapping, and repeated patches are work of a single one. Allocation:
+///          about 60 bytes a side. Determinism: a function of the control points and options.
+/// Cost:    some 0.2 to 0.7 us a patch; by the square of their number if thousands of patches have
+///          the same four edges, or nan among their values.
+/// Returns: ok | the statuses of views (bad_components: not three) | bad_tolerance (a point_size or
+///          snap below 0, or nan) | not_orientable (if `orient` is asked for) | size_overflow (2^29
+///          patches and more) | out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> nets,
                                                   Topology& topology,
@@ -165,22 +164,21 @@ struct EdgeLink {
 };
 
 /// Finds the counterpart of every edge of every patch. Meshes take find_topology() instead.
-/// nets:      any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
-///            patch may match one of a 7 x 3 patch. Patches are numbered through, view after view.
+/// nets:      views of any degrees: an edge of degree 3 of a 3 x 5 patch may match one of a 7 x 3
+///            patch. Patches are numbered through, view after view.
 /// edges:     [4 * patch + PatchEdge]; may not overlap the memory from the first to the last value
-///            of any view, gaps included. A shared edge gets the other one. A non_manifold edge
-///            gets the next one with the same points, in order of patch and edge; the last of them
-///            gets the first. edge, reversed and patch of boundary and collapsed edges are 0.
+///            of any view. A shared edge gets the other one, a non_manifold edge the next one with
+///            the same points, in order of patch and edge, and the last of them the first.
 /// Match:     equal degree and components, and bit-equal control points, weights included, in the
 ///            same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
 ///            counts as none; other weights must have the same form. Such edges are watertight.
 /// Collapsed: all points are one, whatever their weights: Cartesian ones if their coordinates are
 ///            equal, homogeneous ones also if their quotients differ by roundings, 16 u of the
 ///            larger of two in each coordinate (u = 2^-24 or 2^-53).
-/// Allocation: about 30 bytes an edge. Determinism: a function of the input.
 /// Returns:   ok | the statuses of views | null_output | output_too_small | overlapping_outputs |
-///            out_of_memory.
-/// Cost:      O(edges) by hashing, some 50 ns an edge, for values that are not made to collide.
+///            out_of_memory. Determinism: a function of the input.
+/// Cost:      by hashing, some 50 ns an edge, for values that are not made to collide. Allocation:
+///            about 30 bytes an edge.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> nets,
                                                    Values<EdgeLink> edges,
@@ -244,15 +242,12 @@ struct SplitNets {
 /// Cuts patches at the corners that lie on their open sides, if the part of the side between two
 /// corners is the side of another patch. A cut divides the opposite side as well, and so all
 /// patches across it, up to an open side, a side that is a point, or the patch where it began. This
-/// is repeated until nothing is found: pieces may be as long as several others. If nothing is cut,
-/// SplitNets::nets are those given.
-/// nets:    as for find_topology().
+/// is repeated until nothing is found. If nothing is cut, SplitNets::nets are those given.
 /// Gap:     a short edge counts as unjoined if it is within a 32nd of its size of a part of another
 ///          edge, or if cuts for it would lead to more pieces than allowed.
-/// Threads: RunOptions::threads, for topologies. Allocation: as find_topology(), and the pieces.
-///          Determinism: a function of the control points and options.
 /// Cost:    a find_topology() each time, and microseconds for each open side in another one's box.
-/// Returns: as find_topology(), and the statuses of segment() for patches that are to be cut.
+/// Returns: as find_topology(), and the statuses of segment() for patches that are to be cut. Nets,
+///          threads, allocation (and the pieces) and determinism are as there.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status split_edges(std::span<const ControlNets<S>> nets,
                                                 SplitNets<S>& split,
