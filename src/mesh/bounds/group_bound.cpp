@@ -68,7 +68,7 @@ void GroupBound::form() {
     spaces_[lane].reset();
   }
   if (!samples_.suits(first.net)) {
-    samples_ = BendSamples(3, first.net.columns, first.net.rows);
+    samples_ = BendSamples(first.net.columns, first.net.rows);
   }
   kernels_.form(group_, whole_);
 }
@@ -115,7 +115,7 @@ SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
     const double bound = usual.bound * patch.scale.inverse();
     const double fewest = bends_[lane]->fewest(bound);
     return fewest <= kMostLooked && (fewest <= kWorthLooking * usual.cells.product() ||
-                                     bends_[lane]->at(usual.cells, 1) <= kWorthLooking * bound);
+                                     bends_[lane]->at(usual.cells) <= kWorthLooking * bound);
   };
   const double spread = weight_spread(patch);
   if (!(spread < kMostSpread) || !(spread > kLeastSpread || pays())) {

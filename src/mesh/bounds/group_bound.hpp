@@ -11,6 +11,7 @@
 #include <simdbezier/options.hpp>
 
 #include "src/mesh/bounds/bound_parts.hpp"
+#include "src/mesh/bounds/normal_bends.hpp"
 #include "src/mesh/bounds/separable_bound.hpp"
 #include "src/mesh/bounds/space_bound.hpp"
 #include "src/mesh/bounds/vector_patch.hpp"

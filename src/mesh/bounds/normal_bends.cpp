@@ -27,11 +27,11 @@ void put_basis(double* b, std::size_t degree, std::size_t derivative, double t) 
   }
 }
 
-std::vector<double> basis_values(std::size_t n, std::size_t points) {
-  std::vector<double> all(n * kDerivatives * points);
-  for (std::size_t k = 0; k < n * kDerivatives; ++k) {
+std::vector<double> basis_values(std::size_t points) {
+  std::vector<double> all(kBendSamples * kDerivatives * points);
+  for (std::size_t k = 0; k < kBendSamples * kDerivatives; ++k) {
     put_basis(all.data() + k * points, points - 1, k % kDerivatives,
-              static_cast<double>(k / kDerivatives) / static_cast<double>(n - 1));
+              static_cast<double>(k / kDerivatives) / (kBendSamples - 1));
   }
   return all;
 }
@@ -48,26 +48,26 @@ ControlVector mean(const double* factors, const ControlVector* from, std::size_t
 
 } // namespace
 
-BendSamples::BendSamples(std::size_t n, std::size_t columns, std::size_t rows)
-    : n_(n), columns_(columns), rows_(rows), along_u_(basis_values(n, columns)),
-      along_v_(basis_values(n, rows)) {}
+BendSamples::BendSamples(std::size_t columns, std::size_t rows)
+    : columns_(columns), rows_(rows), along_u_(basis_values(columns)),
+      along_v_(basis_values(rows)) {}
 
-NormalBends::NormalBends(const BendSamples& samples, const VectorPatch& patch)
-    : n_(samples.n_), at_(n_ * n_) {
+NormalBends::NormalBends(const BendSamples& samples, const VectorPatch& patch) {
   const VectorNet& net = patch.net;
   std::array<std::array<ControlVector, kMostDegree + 1>, kDerivatives> column;
-  for (std::size_t k = 0; k < n_ * n_; ++k) {
-    if (k % n_ == 0) {
+  for (std::size_t k = 0; k < at_.size(); ++k) {
+    if (k % kBendSamples == 0) {
       for (std::size_t d = 0; d < kDerivatives; ++d) {
         for (std::size_t j = 0; j < net.rows; ++j) {
-          column[d][j] = mean(&samples.along_u_[(k / n_ * kDerivatives + d) * net.columns],
-                              &net(0, j), net.columns);
+          column[d][j] =
+              mean(&samples.along_u_[(k / kBendSamples * kDerivatives + d) * net.columns],
+                   &net(0, j), net.columns);
         }
       }
     }
     const auto derivative = [&](std::size_t of_u, std::size_t of_v) {
-      return mean(&samples.along_v_[(k % n_ * kDerivatives + of_v) * net.rows], column[of_u].data(),
-                  net.rows);
+      return mean(&samples.along_v_[(k % kBendSamples * kDerivatives + of_v) * net.rows],
+                  column[of_u].data(), net.rows);
     };
     ControlVector point = derivative(0, 0);
     const double weight = patch.rational ? point.x[3] : 1;
@@ -90,18 +90,18 @@ NormalBends::NormalBends(const BendSamples& samples, const VectorPatch& patch)
   }
 }
 
-double NormalBends::at(const CellCounts& cells, std::uint32_t few) const {
-  const double u = cells.nu < few ? 0 : 1.0 / cells.nu;
-  const double v = cells.nv < few ? 0 : 1.0 / cells.nv;
+double NormalBends::at(const CellCounts& cells) const {
+  const double u = 1.0 / cells.nu;
+  const double v = 1.0 / cells.nv;
   const double mixed = 2 * u * v;
   double most = 0;
-  for (const std::size_t from_u : {std::size_t{0}, n_ / 2}) {
-    for (const std::size_t from_v : {std::size_t{0}, n_ / 2}) {
+  for (const std::size_t from_u : {0, 1}) {
+    for (const std::size_t from_v : {0, 1}) {
       double rising = 0;
       double falling = 0;
-      for (std::size_t i = from_u; i <= from_u + n_ / 2; ++i) {
-        for (std::size_t j = from_v; j <= from_v + n_ / 2; ++j) {
-          const Bend& bend = at_[i * n_ + j];
+      for (std::size_t i = from_u; i <= from_u + 1; ++i) {
+        for (std::size_t j = from_v; j <= from_v + 1; ++j) {
+          const Bend& bend = at_[i * kBendSamples + j];
           const double uu = bend.uu * u * u;
           const double vv = bend.vv * v * v;
           const double uv = bend.uv * mixed;

@@ -12,12 +12,15 @@
 
 namespace simdbezier::detail {
 
-/// Bernstein polynomials and their first two derivatives at n uniform parameters in each direction.
+inline constexpr std::size_t kBendSamples = 3; ///< in each direction
+
+/// Bernstein polynomials and their first two derivatives at the ends and the middle of each
+/// direction.
 class BendSamples {
 public:
   BendSamples() = default;
-  /// n: an odd number. Of nets of so many control points.
-  BendSamples(std::size_t n, std::size_t columns, std::size_t rows);
+  /// Of nets of so many control points.
+  BendSamples(std::size_t columns, std::size_t rows);
 
   [[nodiscard]] bool suits(const VectorNet& net) const {
     return net.columns == columns_ && net.rows == rows_;
@@ -25,7 +28,6 @@ public:
 
 private:
   friend class NormalBends;
-  std::size_t n_ = 0;
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
   std::vector<double> along_u_; ///< [sample][derivative][control point]
@@ -37,8 +39,8 @@ public:
   NormalBends(const BendSamples& samples, const VectorPatch& patch);
 
   /// About how far the triangles of small cells are from the surface, with the better diagonal in
-  /// each quarter. few: directions of fewer segments do not count, since their cells are not small.
-  [[nodiscard]] double at(const CellCounts& cells, std::uint32_t few) const;
+  /// each quarter.
+  [[nodiscard]] double at(const CellCounts& cells) const;
   /// About the number of small cells that have this distance.
   [[nodiscard]] double fewest(double distance) const;
 
@@ -49,8 +51,7 @@ private:
     double uv = 0;
     double vv = 0;
   };
-  std::size_t n_;
-  std::vector<Bend> at_; ///< [u][v]
+  std::array<Bend, kBendSamples * kBendSamples> at_; ///< [u][v]
 };
 
 } // namespace simdbezier::detail

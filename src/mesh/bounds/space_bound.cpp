@@ -25,9 +25,6 @@ constexpr std::size_t kMostSideHalvings = 200;
 /// Of the time that a piece takes, what a cell takes that is nowhere larger than the tolerance.
 constexpr double kSmallCell = 1.0 / 64;
 
-/// In each direction.
-constexpr std::size_t kBendSamples = 9;
-
 /// The largest second difference of some rows in channels [begin, end).
 double largest_bend(const double* points, std::size_t count, std::size_t step, std::size_t lines,
                     std::size_t line_step, std::size_t begin, std::size_t end) {
@@ -76,9 +73,7 @@ double weight_spread(const VectorPatch& patch) {
 
 SpaceBound::SpaceBound(const VectorPatch& patch, RateFlags flags, const PatchTurn& turn)
     : turn_(turn), columns_(patch.net.columns), rows_(patch.net.rows), flags_(flags),
-      work_(static_cast<double>(columns_ * columns_ * rows_ * rows_)),
-      spread_(weight_spread(patch) > kLeastSpread),
-      bends_(BendSamples(kBendSamples, columns_, rows_), patch) {
+      work_(static_cast<double>(columns_ * columns_ * rows_ * rows_)) {
   double heaviest = 0;
   for (const ControlVector& v : patch.net.at) {
     net_.insert(net_.end(), v.x, v.x + kChannels);

@@ -9,7 +9,6 @@
 
 #include "src/mesh/bounds/bound_parts.hpp"
 #include "src/mesh/bounds/cell_graph.hpp"
-#include "src/mesh/bounds/normal_bends.hpp"
 #include "src/mesh/bounds/patch_turn.hpp"
 #include "src/mesh/bounds/vector_patch.hpp"
 
@@ -31,7 +30,8 @@ public:
   CertifiedCells certify(const CellCounts& cells, double stop, double enough = 0,
                          bool may_fall = true);
   /// Few cells that hold, but fewer than `usual`; with an infinite bound where there are none.
-  CertifiedCells choose(const CellCounts& usual, double stop, std::uint32_t most);
+  /// expected: about how many, or infinity where weights are so far apart that nobody knows.
+  CertifiedCells choose(const CellCounts& usual, double stop, double expected, std::uint32_t most);
 
 private:
   SpaceBound(const PatchTurn& turn, const VectorPatch& patch, RateFlags flags)
@@ -70,7 +70,6 @@ private:
 
   CertifiedCells look_at(const CellCounts& cells, double stop, double enough, bool may_fall);
   static Range range_of(unsigned place, std::uint32_t n);
-  [[nodiscard]] bool are_too_few(const CellCounts& cells, double stop) const;
   bool misses(const CellCounts& cells, double stop);
   double bound_range(const Range& u, const Range& v, const CellCounts& cells, bool falling,
                      double enough, double stop, std::array<double, 2>& miss);
@@ -105,8 +104,6 @@ private:
   std::vector<Miss> misses_;   ///< the latest first
   double looked_at_ = 0;       ///< pieces
   double most_looks_ = 0;
-  bool spread_; ///< whether weights are so far apart that bends_ says nothing
-  NormalBends bends_;
 };
 
 } // namespace simdbezier::detail

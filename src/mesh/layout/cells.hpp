@@ -121,7 +121,7 @@ public:
         return falls(corner);
       }
     }
-    return (diagonals_ >> (3 * zone(j, nv_) + zone(i, nu_)) & 1) != 0;
+    return (diagonals_ >> (3 * zone_at(j, nv_) + zone_at(i, nu_)) & 1) != 0;
   }
   /// The first cell after an inner cell i that is in another zone or is the last cell.
   [[nodiscard]] std::uint32_t end_of_zone(std::uint32_t i) const {
@@ -131,7 +131,7 @@ public:
   }
   /// Bit i: whether cell i of a row is falling; for up to 64 cells a row.
   [[nodiscard]] std::uint64_t falling_row(std::uint32_t j) const {
-    const std::uint32_t zones = static_cast<std::uint32_t>(diagonals_) >> 3 * zone(j, nv_);
+    const std::uint32_t zones = static_cast<std::uint32_t>(diagonals_) >> 3 * zone_at(j, nv_);
     const std::uint32_t middle = nu_ / 2;
     const std::uint64_t low = (std::uint64_t{1} << middle) - 1;
     const std::uint64_t centre = nu_ % 2 != 0 ? std::uint64_t{1} << middle : 0;
@@ -149,13 +149,6 @@ private:
   __attribute__((noinline)) std::uint64_t with_corners(std::uint64_t row, std::uint32_t j) const {
     const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
     return (row & ~(1 | last)) | (falling(0, j) ? 1 : 0) | (falling(nu_ - 1, j) ? last : 0);
-  }
-  /// The zone of cell i of n.
-  static std::uint32_t zone(std::uint32_t i, std::uint32_t n) {
-    const Zone where = n % 2 != 0 && i == n / 2 ? Zone::middle
-                       : 2 * i >= n             ? Zone::high
-                                                : Zone::low;
-    return static_cast<std::uint32_t>(where);
   }
 
   std::uint32_t nu_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 
 #include "src/mesh/bounds/group_bound.hpp"
 #include "src/mesh/rates/filip_terms.hpp"
@@ -287,8 +288,10 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
   for (std::size_t lane = 0; lane < count_; ++lane) {
     SpaceBound* const space = space_of(lane, chosen[lane], kFewestLooked);
     if (space != nullptr) {
-      take_if_close(lane, space->choose(chosen[lane].cells, in_patch(lane, t[lane]), most),
-                    chosen[lane]);
+      const double stop = in_patch(lane, t[lane]);
+      const double expected = bends_[lane] ? 4 * bends_[lane]->fewest(stop) + 1
+                                           : std::numeric_limits<double>::infinity();
+      take_if_close(lane, space->choose(chosen[lane].cells, stop, expected, most), chosen[lane]);
     }
   }
   return chosen;

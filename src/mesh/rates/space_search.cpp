@@ -1,10 +1,12 @@
 // See space_bound.hpp: all cells of a patch, and the fewest that hold.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <simdbezier/mesh_layout.hpp>
 
 #include "src/mesh/bounds/space_bound.hpp"
+#include "src/mesh/topology/topology_data.hpp"
 #include "src/runtime/sort.hpp"
 #include "src/tables/bound_task.hpp"
 
@@ -20,16 +22,6 @@ constexpr double kManyCells = 4096;
 /// Pieces may be looked at so many times for each cell that is expected, and at first.
 constexpr double kLooksForEach = 8;
 constexpr double kFirstLooks = 512;
-/// Triangles may be closer than second derivatives at samples tell by this factor, where cells are
-/// small.
-constexpr double kBendSlack = 1.05;
-
-/// Of Zone, by the number of a cell among n.
-unsigned place_of(std::uint32_t i, std::uint32_t n) {
-  return static_cast<unsigned>(n % 2 != 0 && i == n / 2 ? Zone::middle
-                               : 2 * i >= n             ? Zone::high
-                                                        : Zone::low);
-}
 
 } // namespace
 
@@ -90,8 +82,8 @@ bool SpaceBound::misses(const CellCounts& cells, double stop) {
       at[way][0] = static_cast<std::uint32_t>(miss[way][0] * cells.nu);
       at[way][1] = static_cast<std::uint32_t>(miss[way][1] * cells.nv);
     }
-    if (place_of(at[0][0], cells.nu) != place_of(at[1][0], cells.nu) ||
-        place_of(at[0][1], cells.nv) != place_of(at[1][1], cells.nv)) {
+    if (zone_at(at[0][0], cells.nu) != zone_at(at[1][0], cells.nu) ||
+        zone_at(at[0][1], cells.nv) != zone_at(at[1][1], cells.nv)) {
       return false; // these may have different diagonals
     }
     bool all = true;
@@ -110,18 +102,12 @@ bool SpaceBound::misses(const CellCounts& cells, double stop) {
   return found;
 }
 
-/// Whether second derivatives tell that cells are too few.
-bool SpaceBound::are_too_few(const CellCounts& cells, double stop) const {
-  const std::uint32_t few = static_cast<std::uint32_t>(std::max(columns_, rows_)) + 1;
-  return !spread_ && bends_.at(cells, few) > kBendSlack * stop;
-}
-
-CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, std::uint32_t most) {
+CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, double expected,
+                                  std::uint32_t most) {
   const auto count = [](std::uint32_t k) { return k < 8 ? k : (8 + k % 8) << (k / 8 - 1); };
   looked_at_ = 0;
-  const double expected = spread_ ? usual.product() : 4 * bends_.fewest(stop) + 1;
-  const bool needs_it =
-      std::max(usual.nu, usual.nv) >= most || (spread_ && usual.product() >= kManyCells);
+  const bool needs_it = std::max(usual.nu, usual.nv) >= most ||
+                        (std::isinf(expected) && usual.product() >= kManyCells);
   most_looks_ = needs_it
                     ? kLastWork / work_
                     : std::min(kMostWork / work_,
@@ -137,7 +123,7 @@ CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, std::uin
         if (cells.product() >= std::min(all, 2 * least)) {
           break;
         }
-        if (cells.product() >= least && !are_too_few(cells, stop)) {
+        if (cells.product() >= least) {
           candidates.push_back(cells);
         }
       }

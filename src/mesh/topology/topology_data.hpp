@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/topology.hpp>
 
 #include "src/runtime/fresh_vector.hpp"
@@ -64,6 +65,13 @@ constexpr bool counter_clockwise_along(std::size_t side) noexcept {
 
 /// The diagonal of a corner's cell that passes through the corner.
 constexpr bool falls(std::size_t corner) noexcept { return corner == 1 || corner == 2; }
+
+/// The number of the Zone, in one direction, of cell i of n.
+constexpr unsigned zone_at(std::uint32_t i, std::uint32_t n) noexcept {
+  return static_cast<unsigned>(n % 2 != 0 && i == n / 2 ? Zone::middle
+                               : 2 * i >= n             ? Zone::high
+                                                        : Zone::low);
+}
 
 enum PatchFlag : std::uint8_t {
   kThroughCorner = 1, ///< 1 << corner: the diagonal of the corner's cell has to pass through it
