@@ -180,6 +180,14 @@ TEST(UnevenPatches, have_few_more_cells_than_they_need) {
   }
 }
 
+// A quarter of a circle needs 176 chords of that sagitta; points of equal parameters are so far
+// apart that they would ask for more than 20 000 cells.
+TEST(UnevenPatches, of_a_cone_have_few_cells_at_small_tolerances) {
+  const Choice choice = choose(cone(0, kRoot), 1e-5);
+  EXPECT_LE(choice.deviation[0], 1e-5);
+  EXPECT_LE(choice.nu[0] * choice.nv[0], 256U);
+}
+
 // The fewest cells of which dense samples are within the tolerance, with one diagonal a quarter,
 // are 420, 704, 10 and, of squares of cells, 365 x 365; with samples of triangles as well, 780.
 TEST(UnevenPatches, with_one_heavy_weight_have_at_most_four_times_the_cells_they_need) {

@@ -16,7 +16,8 @@ namespace {
 /// Roundings of a second difference and of what it is formed from, in units of the largest value.
 constexpr double kDifferenceError = 64 * 0x1p-53;
 
-/// More cells than about these are not looked for: they would take far longer than their vertices.
+/// More cells than about these are not looked at, since they would take far longer than their
+/// vertices; nor chosen, unless others have so many times more.
 constexpr double kMostLooked = 64;
 
 } // namespace
@@ -114,8 +115,10 @@ SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
     }
     const double bound = usual.bound * patch.scale.inverse();
     const double fewest = bends_[lane]->fewest(bound);
-    return fewest <= kMostLooked && (fewest <= kWorthLooking * usual.cells.product() ||
-                                     bends_[lane]->at(usual.cells) <= kWorthLooking * bound);
+    const double most =
+        least > 0 ? std::max(kMostLooked, usual.cells.product() / kMostLooked) : kMostLooked;
+    return fewest <= most && (fewest <= kWorthLooking * usual.cells.product() ||
+                              bends_[lane]->at(usual.cells) <= kWorthLooking * bound);
   };
   const double spread = weight_spread(patch);
   if (!(spread < kMostSpread) || !(spread > kLeastSpread || pays())) {
