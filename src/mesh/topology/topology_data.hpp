@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -141,8 +142,11 @@ struct TopologyData {
   /// not be one.
   [[nodiscard]] unsigned short_sides_at(std::size_t corner) const noexcept {
     unsigned found = 0;
+    if (displacement.empty()) {
+      return found;
+    }
     const std::size_t side = corner / kPatchCorners * kPatchEdges;
-    for (std::size_t k = 0; k < kPatchEdges && !displacement.empty(); ++k) {
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
       const bool ends = corner_at(side + k, 0) == corner || corner_at(side + k, 1) == corner;
       found |= ends && sides[side + k].collapsed() ? 1U << k : 0;
     }
@@ -188,11 +192,22 @@ struct TopologyData {
   /// Calls at_corner(lowest of the joined corners) and at_edge(edge) for those that a patch owns.
   template <typename AtCorner, typename AtEdge>
   void for_owned(std::size_t patch, const AtCorner& at_corner, const AtEdge& at_edge) const {
-    for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
-      if (corners[k] == k) {
-        at_corner(static_cast<std::uint32_t>(k));
-      }
+    for_owned_corners(patch, at_corner);
+    for_owned_edges(patch, at_edge);
+  }
+  template <typename AtCorner>
+  void for_owned_corners(std::size_t patch, const AtCorner& at_corner) const {
+    unsigned owned = 0; // 1 << corner
+    for (std::size_t k = 0; k < kPatchCorners; ++k) {
+      owned |= (corners[kPatchCorners * patch + k] == kPatchCorners * patch + k ? 1U : 0U) << k;
     }
+    for (; owned != 0; owned &= owned - 1) {
+      at_corner(static_cast<std::uint32_t>(kPatchCorners * patch) +
+                static_cast<std::uint32_t>(std::countr_zero(owned)));
+    }
+  }
+  template <typename AtEdge>
+  void for_owned_edges(std::size_t patch, const AtEdge& at_edge) const {
     for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
       if (owns_edge(side)) {
         at_edge(sides[side].edge());

@@ -12,33 +12,48 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 #include "src/mesh/layout/mesh_data.hpp"
+#include "src/mesh/vertices/merged_normals.hpp"
 #include "src/mesh/vertices/parameter_lines.hpp"
 #include "src/mesh/vertices/patch_copies.hpp"
 #include "src/mesh/vertices/patch_runner.hpp"
 
 namespace simdbezier::detail {
 
-/// The samples of one patch, in planes of unit stride: those of the positions, if they are wanted,
-/// and then those of the normals.
+/// The samples of one patch, in planes of unit stride: those of positions, then those of normals.
+/// Planes that are not wanted are there, but have no values.
 template <typename T>
 struct ClosedGrid {
-  const T* first;
-  std::uint32_t plane; ///< values from one plane to the next
-  std::uint16_t columns;
-  std::uint16_t rows;
+  /// Patches of at most so many cells in each direction have all of their samples.
+  static constexpr std::uint32_t kMostRate = 5;
+  static constexpr std::size_t kPatches = 64; ///< of a block
+  static constexpr std::size_t kMostSamples = (kMostRate + 1) * (kMostRate + 1);
+  /// Values of a plane: a register of patches is written, however few of them there are.
+  static constexpr std::size_t kPlane = (kPatches + kMaxLanes) * kMostSamples;
 
-  [[nodiscard]] std::size_t corner(std::size_t corner) const noexcept {
-    return sample(corner % 2 == 0 ? 0 : columns - 1U, corner / 2 == 0 ? 0 : rows - 1U);
+  const T* first;
+  std::uint8_t columns;
+  std::uint8_t rows;
+  bool whole;              ///< not only the patch's corners
+  std::uint8_t corners[4]; ///< their samples
+
+  [[nodiscard]] SampleRun<T> corner(std::size_t corner, bool turned) const noexcept {
+    return run(corners[corner], 0, turned);
   }
-  /// Point k of a side, in its own direction.
-  [[nodiscard]] std::size_t side_point(std::size_t side, std::size_t k) const noexcept {
-    const bool far = side % 2 != 0;
-    return runs_in_u(side) ? sample(k, far ? rows - 1U : 0) : sample(far ? columns - 1U : 0, k);
+  /// The samples of a side between its ends. reversed: from its second end on.
+  [[nodiscard]] SampleRun<T> side(std::size_t side, bool reversed, bool turned) const noexcept {
+    const std::ptrdiff_t along = runs_in_u(side) ? 1 : columns;
+    const std::ptrdiff_t step = reversed ? -along : along;
+    return run(corners[kSideCorners[side % kPatchEdges][reversed ? 1 : 0]] + step, step, turned);
   }
-  [[nodiscard]] std::size_t sample(std::size_t column, std::size_t row) const noexcept {
-    return row * columns + column;
+
+private:
+  [[nodiscard]] SampleRun<T> run(std::ptrdiff_t sample, std::ptrdiff_t step,
+                                 bool turned) const noexcept {
+    const T* const at = first + sample;
+    return {at, at + 3 * kPlane, kPlane, step, turned ? T(-1) : T(1)};
   }
 };
 
@@ -46,87 +61,69 @@ struct ClosedGrid {
 template <typename T>
 class ClosedGrids {
 public:
-  /// Patches of at most so many cells in each direction have all of their samples.
-  static constexpr std::uint32_t kMostRate = 5;
+  static constexpr std::uint32_t kMostRate = ClosedGrid<T>::kMostRate;
 
-  [[nodiscard]] static std::size_t bytes(const MeshData& mesh, bool positions,
-                                         bool normals) noexcept {
-    return blocks_bytes(mesh, positions, normals) + PatchCopies<T>::bytes(kPatches + kMaxLanes);
+  [[nodiscard]] static std::size_t bytes(const MeshData& mesh) noexcept {
+    return blocks_bytes(mesh) + PatchCopies<T>::bytes(kPatches + kMaxLanes);
   }
   ClosedGrids(const MeshData& mesh, PatchRunner<T>& runner, ParameterLines<T>& lines,
               bool positions, bool normals, unsigned char* memory) noexcept
       : mesh_(mesh), runner_(runner), lines_(lines), positions_(positions), normals_(normals),
         exists_(runner.takes_closed_grids()), values_(reinterpret_cast<T*>(memory)),
-        copies_(kPatches + kMaxLanes, memory + blocks_bytes(mesh, positions, normals)) {}
-
-  /// Whether a patch's grid has all of its samples.
-  [[nodiscard]] bool is_whole(const ClosedGrid<T>& grid, std::size_t patch) const noexcept {
-    return grid.columns == mesh_.nu[patch] + 1 && grid.rows == mesh_.nv[patch] + 1;
+        copies_(kPatches + kMaxLanes, memory + blocks_bytes(mesh)) {
+    std::fill_n(known_, kBlocks, kNone);
+    std::fill_n(useless_, kBlocks, kNone);
   }
+
   /// Whether the grids of two patches can be there at once.
   [[nodiscard]] static bool are_apart(std::size_t a, std::size_t b) noexcept {
     return a / kPatches == b / kPatches || a / kPatches % kBlocks != b / kPatches % kBlocks;
   }
+  /// Says that so many grids are asked for, besides those that of() is.
+  void count(std::size_t asked) noexcept { asked_ += asked; }
+  /// Whether a patch's grid is there, and the grid.
+  [[nodiscard]] bool is_known(std::size_t patch) const noexcept {
+    const std::size_t number = patch / kPatches;
+    return known_[number % kBlocks] == number;
+  }
+  [[nodiscard]] const ClosedGrid<T>& known(std::size_t patch) const noexcept {
+    return grids_[patch % (kBlocks * kPatches)];
+  }
   /// A patch's grid; null where there is none, or where blocks are asked for too seldom to pay.
   /// Valid until one is asked for that is not apart.
   const ClosedGrid<T>* of(std::size_t patch) noexcept {
-    if (!exists_) {
-      return nullptr;
-    }
     ++asked_;
-    const std::size_t number = patch / kPatches;
-    Block& block = blocks_[number % kBlocks];
-    if (block.number != number) [[unlikely]] {
-      if (kPatches * filled_ > asked_ + 4 * kPatches) {
-        return nullptr;
-      }
-      block.number = number;
-      block.usable = fill(number, block);
-    }
-    return block.usable ? &block.grid[patch % kPatches] : nullptr;
-  }
-
-  /// These read a sample; `position` or `normal` stays as it is where it is not wanted.
-  void read_position(const ClosedGrid<T>& grid, std::size_t sample,
-                     T (&position)[3]) const noexcept {
-    if (positions_) {
-      read(grid.first + sample, grid.plane, position);
-    }
-  }
-  void read_normal(const ClosedGrid<T>& grid, std::size_t sample, T (&normal)[3]) const noexcept {
-    if (normals_) {
-      const std::size_t before = positions_ ? 3 : 0;
-      read(grid.first + before * grid.plane + sample, grid.plane, normal);
-    }
+    return is_known(patch) || find(patch / kPatches) ? &known(patch) : nullptr;
   }
 
 private:
-  static void read(const T* from, std::size_t plane, T (&values)[3]) noexcept {
-    for (std::size_t c = 0; c < 3; ++c) {
-      values[c] = from[c * plane];
-    }
-  }
-
-  static constexpr std::size_t kPatches = 64;
+  static constexpr std::size_t kPatches = ClosedGrid<T>::kPatches;
+  static constexpr std::size_t kPlane = ClosedGrid<T>::kPlane;
   static constexpr std::size_t kBlocks = 8;
   static constexpr std::size_t kNone = ~std::size_t(0);
-  static constexpr std::size_t kMostSamples = (kMostRate + 1) * (kMostRate + 1);
-  /// Of a plane: a register of patches is written, however few of them there are.
-  static constexpr std::size_t kPlaneValues = (kPatches + kMaxLanes) * kMostSamples;
 
-  struct Block {
-    std::size_t number = kNone;
-    bool usable = false;
-    ClosedGrid<T> grid[kPatches];
-  };
   struct Rates {
     std::uint32_t u;
     std::uint32_t v;
 
     static constexpr std::size_t kKeys = kMostRate * kMostRate;
     static_assert(kKeys <= 32);
+    static Rates of_key(std::size_t key) noexcept {
+      return {static_cast<std::uint32_t>(key % kMostRate + 1),
+              static_cast<std::uint32_t>(key / kMostRate + 1)};
+    }
     [[nodiscard]] std::size_t key() const noexcept { return (v - 1) * kMostRate + u - 1; }
     [[nodiscard]] std::size_t samples() const noexcept { return std::size_t{u + 1} * (v + 1); }
+    /// A grid but for its place.
+    [[nodiscard]] ClosedGrid<T> grid() const noexcept {
+      const auto byte = [](std::uint32_t value) { return static_cast<std::uint8_t>(value); };
+      const std::uint32_t last_row = (u + 1) * v;
+      return {nullptr,
+              byte(u + 1),
+              byte(v + 1),
+              false,
+              {0, byte(u), byte(last_row), byte(last_row + u)}};
+    }
   };
   /// Patches of equal rates.
   struct Group {
@@ -136,76 +133,98 @@ private:
     Rates rates;
   };
 
-  static std::size_t blocks_bytes(const MeshData& mesh, bool positions, bool normals) noexcept {
-    return std::min(kBlocks, mesh.patches() / kPatches + 1) * block_values(positions, normals) *
-           sizeof(T);
+  static std::size_t blocks_bytes(const MeshData& mesh) noexcept {
+    return std::min(kBlocks, mesh.patches() / kPatches + 1) * 6 * kPlane * sizeof(T);
   }
-  static std::size_t block_values(bool positions, bool normals) noexcept {
-    return ((positions ? 3 : 0) + (normals ? 3 : 0)) * kPlaneValues;
-  }
-  /// The rates of a patch's grid. whole: not only of its corners.
-  [[nodiscard]] Rates rates_of(std::size_t patch, bool whole) const noexcept {
-    const std::uint32_t nu = mesh_.nu[patch];
-    const std::uint32_t nv = mesh_.nv[patch];
-    return whole && nu <= kMostRate && nv <= kMostRate ? Rates{nu, nv} : Rates{1, 1};
-  }
-  /// Whether patches of a block are worth more than their corners. To copy doubles takes as long as
-  /// what it saves; floats are copied unless registers remain too empty.
-  [[nodiscard]] bool pays(std::size_t first, std::size_t count) const noexcept {
+  /// Finds the keys of the grids' rates in a block. They are those of corners if that is better: to
+  /// copy doubles takes as long as what it saves; floats are copied unless registers remain too
+  /// empty. Returns the set of all keys.
+  std::uint32_t find_keys(std::size_t first, std::size_t count, std::uint8_t* keys) const noexcept {
+    const std::uint32_t* const nu = mesh_.nu.data() + first;
+    const std::uint32_t* const nv = mesh_.nv.data() + first;
     std::uint32_t found = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      found |= 1U << rates_of(first + k, true).key();
+      const bool few = nu[k] <= kMostRate && nv[k] <= kMostRate;
+      keys[k] = static_cast<std::uint8_t>(few ? Rates{nu[k], nv[k]}.key() : 0);
+      found |= 1U << keys[k];
     }
     constexpr std::size_t kLeastMembers = 5;
     const auto groups = static_cast<std::size_t>(std::popcount(found));
-    return groups == 1 || (sizeof(T) == sizeof(float) && kLeastMembers * groups <= count);
+    if (groups == 1 || (sizeof(T) == sizeof(float) && kLeastMembers * groups <= count)) {
+      return found;
+    }
+    std::fill_n(keys, count, std::uint8_t(0));
+    return 1;
   }
 
+  /// Makes a block of grids known. False where there are none.
+  [[gnu::noinline]] bool find(std::size_t number) noexcept {
+    const std::size_t slot = number % kBlocks;
+    if (!exists_ || useless_[slot] == number || kPatches * filled_ > asked_ + 4 * kPatches) {
+      return false;
+    }
+    const bool filled = fill(number);
+    (filled ? known_ : useless_)[slot] = number;
+    return filled;
+  }
   /// False where the patches are not all of one shape that kernels for closed grids know.
-  [[gnu::noinline]] bool fill(std::size_t number, Block& block) noexcept {
+  bool fill(std::size_t number) noexcept {
     const std::size_t first = number * kPatches;
     const std::size_t count = std::min(kPatches, mesh_.patches() - first);
     const std::uint32_t bucket = runner_.edge_bucket(first);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (bucket == PatchRunner<T>::kNoEdges || runner_.edge_bucket(first + k) != bucket) {
+    const bool together = runner_.together(first, count) == count;
+    for (std::size_t k = 1; k < count && !together; ++k) {
+      if (runner_.edge_bucket(first + k) != bucket) {
         return false;
       }
     }
+    if (bucket == PatchRunner<T>::kNoEdges) {
+      return false;
+    }
     ++filled_;
-    const bool whole = pays(first, count);
+    std::uint8_t keys[kPatches];
+    const std::uint32_t found = find_keys(first, count, keys);
     std::size_t end[Rates::kKeys + 1] = {}; // of each group, once its members are in their places
-    std::size_t samples = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const Rates rates = rates_of(first + k, whole);
-      ++end[rates.key() + 1];
-      samples += rates.samples();
+    std::uint8_t member[kPatches] = {};     // of the groups, one after the other
+    const bool alike = std::popcount(found) == 1;
+    if (alike) {
+      std::iota(member, member + count, std::uint8_t(0));
+      end[keys[0]] = count;
+    } else {
+      sort_members(keys, count, member, end);
     }
-    const bool alike = end[rates_of(first, whole).key() + 1] == count;
-    for (std::size_t key = 0; key < Rates::kKeys; ++key) {
-      end[key + 1] += end[key];
-    }
-    const std::size_t plane = samples + kMaxLanes * kMostSamples;
-    std::uint8_t member[kPatches]; // of the groups, one after the other
-    for (std::size_t k = 0; k < count; ++k) {
-      member[end[rates_of(first + k, whole).key()]++] = static_cast<std::uint8_t>(k);
-    }
-    const bool copied = !alike || runner_.together(first, count) < count;
+    const bool copied = !together || !alike;
     if (copied) {
-      const std::size_t last = rates_of(first + member[count - 1], whole).key();
+      const std::size_t last = keys[member[count - 1]];
       make_copies(first, member, count, count - (last == 0 ? 0 : end[last - 1]));
     }
-    T* values = values_ + number % kBlocks * block_values(positions_, normals_);
+    const std::size_t slot = number % kBlocks;
+    T* values = values_ + slot * 6 * kPlane;
     for (std::size_t at = 0; at < count;) {
-      const Rates rates = rates_of(first + member[at], whole);
-      const std::size_t behind = end[rates.key()];
-      evaluate(bucket, {copied ? at : first, behind - at, copied, rates}, target(values, plane));
+      const Rates rates = Rates::of_key(keys[member[at]]);
+      const std::size_t behind = end[keys[member[at]]];
+      evaluate(bucket, {copied ? at : first, behind - at, copied, rates}, values);
+      ClosedGrid<T> grid = rates.grid();
       for (; at < behind; ++at, values += rates.samples()) {
-        block.grid[member[at]] = {values, static_cast<std::uint32_t>(plane),
-                                  static_cast<std::uint16_t>(rates.u + 1),
-                                  static_cast<std::uint16_t>(rates.v + 1)};
+        const std::size_t patch = first + member[at];
+        grid.first = values;
+        grid.whole = mesh_.nu[patch] == rates.u && mesh_.nv[patch] == rates.v;
+        grids_[slot * kPatches + member[at]] = grid;
       }
     }
     return true;
+  }
+  static void sort_members(const std::uint8_t* keys, std::size_t count, std::uint8_t* member,
+                           std::size_t (&end)[Rates::kKeys + 1]) noexcept {
+    for (std::size_t k = 0; k < count; ++k) {
+      ++end[keys[k] + 1];
+    }
+    for (std::size_t key = 0; key < Rates::kKeys; ++key) {
+      end[key + 1] += end[key];
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      member[end[keys[k]]++] = static_cast<std::uint8_t>(k);
+    }
   }
 
   /// Copies the members of groups in the order in which they are read fastest. If the last group,
@@ -226,7 +245,8 @@ private:
 
   /// Copies behind the last one of a group fill its register; the next group writes over their
   /// samples.
-  void evaluate(std::uint32_t bucket, const Group& group, const PieceTarget<T>& to) noexcept {
+  void evaluate(std::uint32_t bucket, const Group& group, T* values) noexcept {
+    const PieceTarget<T> to = target(values);
     T x[kMostRate + 1 + kMaxLanes];
     T y[kMostRate + 1 + kMaxLanes];
     const auto [nu, nv] = group.rates;
@@ -250,11 +270,11 @@ private:
     std::copy_n(lines_.line(rate), rate - 1, line + 1);
     std::fill_n(line + rate, kMaxLanes + 1, T(0.5));
   }
-  [[nodiscard]] PieceTarget<T> target(T* values, std::size_t plane) const noexcept {
+  [[nodiscard]] PieceTarget<T> target(T* values) const noexcept {
     PieceTarget<T> to;
     for (std::size_t c = 0; c < 3; ++c) {
-      to.position.component[c] = positions_ ? values + c * plane : nullptr;
-      to.normal.component[c] = normals_ ? values + (positions_ ? 3 + c : c) * plane : nullptr;
+      to.position.component[c] = positions_ ? values + c * kPlane : nullptr;
+      to.normal.component[c] = normals_ ? values + (3 + c) * kPlane : nullptr;
     }
     return to;
   }
@@ -267,7 +287,9 @@ private:
   bool exists_;
   T* values_;
   PatchCopies<T> copies_;
-  Block blocks_[kBlocks];
+  std::size_t known_[kBlocks];   ///< blocks whose grids are there
+  std::size_t useless_[kBlocks]; ///< blocks that cannot have any
+  ClosedGrid<T> grids_[kBlocks * kPatches];
   std::size_t filled_ = 0;
   std::size_t asked_ = 0;
 };

@@ -48,33 +48,31 @@ struct PointBlock {
 /// Turns sums of unit normals into normals: sum * inverse + kept * first + 0, where first is the
 /// first term. That is the sum's direction; a single term stays as it is, and so does the first one
 /// where the sum is less than a thousandth of what it could be. finish_sum() of the kernels for
-/// edges does the same operations. Values are those of one point, or of a block of points.
+/// edges does the same operations. Values are those of a block of points.
 template <typename Values>
 struct MergedScale {
   Values inverse;
   Values kept; ///< 1 where the first term stays, else 0
 
-  /// square: of the sum's length.
-  template <typename T>
-  MergedScale(const Values& square, T terms) noexcept {
-    const T least = kLeastSum<T> * terms;
+  /// square: of the sum's length. terms: of the sum.
+  MergedScale(const Values& square, const Values& terms) noexcept {
+    using T = std::decay_t<decltype(square[0])>;
+    const Values least = kLeastSum<T> * terms;
     const Values zero = square - square; // squares of sums of unit vectors are finite
-    const auto merges = square >= (terms > 1 ? least * least : std::numeric_limits<T>::infinity());
-    kept = merges ? zero : zero + T(1);
-    inverse = (T(1) - kept) / root_of(square + kept);
+    const Values one = zero + T(1);
+    const Values none = zero + std::numeric_limits<T>::infinity();
+    const auto merges = square >= (terms > one ? least * least : none);
+    kept = merges ? zero : one;
+    inverse = (one - kept) / root_of(square + kept);
   }
 
 private:
   static Values root_of(const Values& values) noexcept {
-    if constexpr (std::is_arithmetic_v<Values>) {
-      return std::sqrt(values);
-    } else {
-      Values roots = values; // g++ at -O1 warns of one that is set lane by lane
-      for (std::size_t k = 0; k < sizeof values / sizeof values[0]; ++k) {
-        roots[k] = std::sqrt(roots[k]);
-      }
-      return roots;
+    Values roots = values; // g++ at -O1 warns of one that is set lane by lane
+    for (std::size_t k = 0; k < sizeof values / sizeof values[0]; ++k) {
+      roots[k] = std::sqrt(roots[k]);
     }
+    return roots;
   }
 };
 
@@ -106,7 +104,7 @@ public:
               std::size_t step) const noexcept {
     using Values = typename Block::Values;
     const Values square = sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2];
-    const MergedScale<Values> scale(square, static_cast<T>(terms_));
+    const MergedScale<Values> scale(square, Values{} + static_cast<T>(terms_));
     for (std::size_t c = 0; c < 3; ++c) {
       // never -0
       const Values value = sum_[c] * scale.inverse + scale.kept * first_[c] + T(0);
@@ -120,34 +118,111 @@ private:
   typename Block::Values sum_[3];
 };
 
-/// The sum of unit normals at one point.
+/// Calls f.operator()<count>() for a count from 1 to 4: g++ makes loops of unknown length longer
+/// than so few values are worth.
+template <typename F>
+void with_known_count(std::size_t count, const F& f) {
+  switch (count) {
+  case 1:
+    return f.template operator()<1>();
+  case 2:
+    return f.template operator()<2>();
+  case 3:
+    return f.template operator()<3>();
+  default:
+    return f.template operator()<4>();
+  }
+}
+
+/// Samples at equal distances.
 template <typename T>
-class NormalSum {
+struct SampleRun {
+  const T* position; ///< of the first one
+  const T* normal;
+  std::size_t plane; ///< values from one component to the next
+  std::ptrdiff_t step;
+  T sign; ///< of normals
+
+  /// Reads a component of the positions, or of the normals.
+  template <std::size_t kPoints>
+  void read(const T* first, std::size_t component, T (&to)[kPoints]) const noexcept {
+    first += component * plane;
+    for (std::size_t k = 0; k < kPoints; ++k, first += step) {
+      to[k] = *first;
+    }
+  }
+};
+
+/// Sums of unit normals at single points. They wait until many are finished at once, since roots
+/// and quotients of single ones take longer than all the rest.
+template <typename T>
+class WaitingSums {
 public:
-  NormalSum(const T (&normal)[3], bool reversed) noexcept {
-    const T sign = reversed ? T(-1) : T(1);
+  [[nodiscard]] bool has_room(std::size_t points) const noexcept {
+    return count_ + points <= kMost;
+  }
+  /// The first patch's normals at points with consecutive places.
+  template <std::size_t kPoints>
+  void put(const SampleRun<T>& run, std::size_t place) noexcept {
     for (std::size_t c = 0; c < 3; ++c) {
-      first_[c] = sum_[c] = sign * normal[c];
+      T term[kPoints];
+      run.read(run.normal, c, term);
+      for (std::size_t k = 0; k < kPoints; ++k) {
+        first_[c][count_ + k] = sum_[c][count_ + k] = run.sign * term[k];
+      }
+    }
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      terms_[count_ + k] = 1;
+      place_[count_ + k] = place + k;
+    }
+    count_ += kPoints;
+  }
+  /// Adds those of one more patch at the points that were put last.
+  template <std::size_t kPoints>
+  void add(const SampleRun<T>& run) noexcept {
+    const std::size_t at = count_ - kPoints;
+    for (std::size_t c = 0; c < 3; ++c) {
+      T term[kPoints];
+      run.read(run.normal, c, term);
+      for (std::size_t k = 0; k < kPoints; ++k) {
+        sum_[c][at + k] += run.sign * term[k];
+      }
+    }
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      terms_[at + k] += 1;
     }
   }
-  void add(const T (&normal)[3], bool reversed) noexcept {
-    const T sign = reversed ? T(-1) : T(1);
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum_[c] += sign * normal[c];
+  /// Writes the normals to their places of planes.
+  void finish(const Planes<T>& to, std::size_t step) noexcept {
+    using Block = PointBlock<T>;
+    using Values = typename Block::Values;
+    for (std::size_t k = 0; k < count_; k += Block::kPoints) {
+      const Values sum[3] = {Block::load(sum_[0] + k), Block::load(sum_[1] + k),
+                             Block::load(sum_[2] + k)};
+      const Values square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+      const MergedScale<Values> scale(square, Block::load(terms_ + k));
+      for (std::size_t c = 0; c < 3; ++c) { // never -0
+        const Values first = Block::load(first_[c] + k);
+        Block::store(sum[c] * scale.inverse + scale.kept * first + T(0), Block::kPoints,
+                     sum_[c] + k, 1);
+      }
     }
-    terms_ += 1;
-  }
-  void finish(T (&normal)[3]) const noexcept {
-    const MergedScale<T> scale(sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2], terms_);
-    for (std::size_t c = 0; c < 3; ++c) {
-      normal[c] = sum_[c] * scale.inverse + scale.kept * first_[c] + T(0); // never -0
+    for (std::size_t k = 0; k < count_; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        to.component[c][place_[k] * step] = sum_[c][k];
+      }
     }
+    count_ = 0;
   }
 
 private:
-  T first_[3];
-  T sum_[3];
-  T terms_ = 1;
+  static constexpr std::size_t kMost = 64;
+
+  std::size_t count_ = 0;
+  T first_[3][kMost] = {}; // a block behind the last one is read as well
+  T sum_[3][kMost] = {};
+  T terms_[kMost] = {};
+  std::size_t place_[kMost];
 };
 
 } // namespace simdbezier::detail

@@ -39,22 +39,18 @@ public:
       put_corner_parameters(topology_, lowest, mesh_.corners[lowest] - to.parameters_first,
                             to.parameters);
     }
-    const std::size_t place = mesh_.corners[lowest] - to.first;
-    const CornerValues<T> own = corner_values(lowest);
-    put_vertex(own.position, to.position, place, to.step);
-    if (!normals_) {
-      return true;
+    if (has_grids(lowest) || find_grids(lowest)) {
+      put_corner(lowest, to, [this](std::uint32_t corner) {
+        const std::size_t patch = corner / kPatchCorners;
+        return grids_.known(patch).corner(corner % kPatchCorners, topology_.is_turned(patch));
+      });
+    } else {
+      put_corner(lowest, to, [this](std::uint32_t corner) {
+        const CornerValues<T>& known = corners_.at(corner);
+        const bool turned = topology_.is_turned(corner / kPatchCorners);
+        return SampleRun<T>{known.position, known.normal, 1, 0, turned ? T(-1) : T(1)};
+      });
     }
-    NormalSum<T> sum(own.normal, topology_.is_turned(lowest / kPatchCorners));
-    for (std::uint32_t corner = topology_.next_corner[lowest]; corner != lowest;
-         corner = topology_.next_corner[corner]) {
-      if (!topology_.is_apart(corner, kApartCorner)) {
-        sum.add(corner_values(corner).normal, topology_.is_turned(corner / kPatchCorners));
-      }
-    }
-    T merged[3];
-    sum.finish(merged);
-    put_vertex(merged, to.normal, place, to.step);
     return true;
   }
 
@@ -105,8 +101,9 @@ public:
     }
     return true;
   }
-  /// Writes the edges that wait. to: as for add_edge().
+  /// Writes the edges and the normals that wait. to: as for add_edge() and put_corner().
   void run(const VertexTarget<T>& to) noexcept {
+    sums_.finish(to.normal, to.step);
     if (count_ > 0) {
       runner_.run_edges({jobs_, count_}, bucket_, {to.position, to.normal, to.step, to.drain});
       count_ = 0;
@@ -116,17 +113,61 @@ public:
 private:
   static constexpr std::size_t kMost = 64;
 
-  CornerValues<T> corner_values(std::uint32_t corner) noexcept {
-    const ClosedGrid<T>* const grid =
-        topology_.short_sides_at(corner) == 0 ? grids_.of(corner / kPatchCorners) : nullptr;
-    if (grid == nullptr) {
-      return corners_.at(corner);
+  /// Whether the grids of all patches at a corner are there, which nearly always holds: so what
+  /// follows needs no calls, around which registers would be saved.
+  [[nodiscard]] bool has_grids(std::uint32_t lowest) noexcept {
+    bool has = true;
+    std::size_t patches = 0;
+    std::uint32_t corner = lowest;
+    do {
+      ++patches;
+      has &= grids_.is_known(corner / kPatchCorners) && topology_.short_sides_at(corner) == 0;
+      corner = topology_.next_corner[corner];
+    } while (normals_ && corner != lowest);
+    grids_.count(patches);
+    return has;
+  }
+  /// Looks for those that are not there.
+  [[gnu::noinline]] bool find_grids(std::uint32_t lowest) noexcept {
+    std::uint32_t corner = lowest;
+    do {
+      if (grids_.of(corner / kPatchCorners) == nullptr) {
+        return false;
+      }
+      corner = topology_.next_corner[corner];
+    } while (normals_ && corner != lowest);
+    return has_grids(lowest);
+  }
+  /// sample_of(corner): valid until the next one is asked for.
+  template <typename SampleOf>
+  [[gnu::always_inline]] void put_corner(std::uint32_t lowest, const VertexTarget<T>& to,
+                                         const SampleOf& sample_of) noexcept {
+    const SampleRun<T> own = sample_of(lowest);
+    begin<1>(own, mesh_.corners[lowest] - to.first, to);
+    for (std::uint32_t corner = topology_.next_corner[lowest]; normals_ && corner != lowest;
+         corner = topology_.next_corner[corner]) {
+      if (!topology_.is_apart(corner, kApartCorner)) {
+        sums_.template add<1>(sample_of(corner));
+      }
     }
-    CornerValues<T> values{};
-    const std::size_t sample = grid->corner(corner % kPatchCorners);
-    grids_.read_position(*grid, sample, values.position);
-    grids_.read_normal(*grid, sample, values.normal);
-    return values;
+  }
+  /// Writes positions, and lets sums of normals wait that begin with the first patch's.
+  template <std::size_t kPoints>
+  void begin(const SampleRun<T>& run, std::size_t place, const VertexTarget<T>& to) noexcept {
+    for (std::size_t c = 0; c < 3 && to.position.component[c] != nullptr; ++c) {
+      T values[kPoints];
+      run.read(run.position, c, values);
+      for (std::size_t k = 0; k < kPoints; ++k) {
+        to.position.component[c][(place + k) * to.step] = values[k];
+      }
+    }
+    if (!normals_) {
+      return;
+    }
+    if (!sums_.has_room(kPoints)) {
+      sums_.finish(to.normal, to.step);
+    }
+    sums_.template put<kPoints>(run, place);
   }
   /// The points of an edge between patches of few cells. False where nothing is written.
   bool put_small_edge(std::uint32_t edge, std::span<const std::uint32_t> sides,
@@ -141,35 +182,29 @@ private:
     const bool merges = normals_ && other != own && !topology_.is_apart(other, kApartSide);
     const ClosedGrid<T>* const grid = grids_.of(patch);
     const ClosedGrid<T>* const beyond = merges ? grids_.of(other_patch) : grid;
-    if (grid == nullptr || beyond == nullptr || !grids_.is_whole(*grid, patch) ||
-        (merges && !grids_.is_whole(*beyond, other_patch))) {
+    if (grid == nullptr || beyond == nullptr || !grid->whole || !beyond->whole) {
       return false;
     }
     if (to.parameters.wanted()) {
       put_parameters(edge, own, nullptr, to);
     }
-    const std::uint32_t segments = mesh_.segments[edge];
+    const std::size_t points = mesh_.segments[edge] - 1;
     const std::size_t place = mesh_.edge_first[edge] - to.first;
-    const auto point_on = [&](const ClosedGrid<T>& of, std::uint32_t side, std::uint32_t k) {
-      return of.side_point(side, topology_.sides[side].reversed() ? segments - k : k);
-    };
-    for (std::uint32_t k = 1; k < segments; ++k) {
-      const std::size_t sample = point_on(*grid, own, k);
-      T values[3] = {};
-      grids_.read_position(*grid, sample, values);
-      put_vertex(values, to.position, place + k - 1, to.step);
-      if (normals_) {
-        grids_.read_normal(*grid, sample, values);
-        NormalSum<T> sum(values, topology_.is_turned(patch));
-        if (merges) {
-          grids_.read_normal(*beyond, point_on(*beyond, other, k), values);
-          sum.add(values, topology_.is_turned(other_patch));
-        }
-        sum.finish(values);
-        put_vertex(values, to.normal, place + k - 1, to.step);
+    const SampleRun<T> samples = run_of(*grid, own);
+    const SampleRun<T> others = merges ? run_of(*beyond, other) : samples;
+    static_assert(ClosedGrids<T>::kMostRate == 5);
+    with_known_count(points, [&]<std::size_t kPoints>() {
+      begin<kPoints>(samples, place, to);
+      if (merges) {
+        sums_.template add<kPoints>(others);
       }
-    }
+    });
     return true;
+  }
+  /// A side's samples between its ends, in the direction of its edge.
+  [[nodiscard]] SampleRun<T> run_of(const ClosedGrid<T>& grid, std::uint32_t side) const noexcept {
+    return grid.side(side, topology_.sides[side].reversed(),
+                     topology_.is_turned(side / kPatchEdges));
   }
 
   /// Those of the points between an edge's ends, on its first side. shares: where they are on the
@@ -197,6 +232,7 @@ private:
   CornerCache<T>& corners_;
   ClosedGrids<T>& grids_;
   bool normals_;
+  WaitingSums<T> sums_;
   std::size_t count_ = 0;
   std::uint32_t bucket_ = 0; ///< of all edges that wait
   EdgeJob<T> jobs_[kMost];

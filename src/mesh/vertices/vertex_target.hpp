@@ -28,15 +28,6 @@ struct ParameterOutputs {
   }
 };
 
-/// Stores the components of a vertex at a place of planes, as far as these are wanted.
-template <typename T>
-void put_vertex(const T (&values)[3], const Planes<T>& to, std::size_t place,
-                std::size_t step) noexcept {
-  for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
-    to.component[c][place * step] = values[c];
-  }
-}
-
 /// Planes that vertices go to: values of vertex k at [(k - first) * step] of a plane.
 template <typename T>
 struct VertexTarget {

@@ -65,7 +65,7 @@ public:
   [[nodiscard]] static std::size_t scratch_bytes(const VertexTask<T>& task,
                                                  const VertexSizes<T>& sizes) noexcept {
     return lines_bytes(sizes) + BoundarySamples<T>::bytes(*task.mesh, sizes.wishes) +
-           grids_bytes(task) + BoundaryStore<T>::bytes(*task.mesh);
+           ClosedGrids<T>::bytes(*task.mesh) + BoundaryStore<T>::bytes(*task.mesh);
   }
 
   VertexWorker(const VertexTask<T>& task, const VertexSizes<T>& sizes, Sink& sink,
@@ -75,24 +75,25 @@ public:
         samples_(mesh_, sizes.wishes, runner_, lines_,
                  take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
         grids_(mesh_, runner_, lines_, task.dimension > 0, task.normals,
-               take(scratch, grids_bytes(task))),
+               take(scratch, ClosedGrids<T>::bytes(mesh_))),
         plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), grids_, task.normals),
         store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
 
   /// Computes the boundaries and rows that begin at vertices [begin, end).
   Isa run(std::size_t begin, std::size_t end) noexcept {
-    for (std::size_t patch = patch_of(begin); patch < mesh_.patches(); ++patch) {
-      const std::size_t first = mesh_.first_vertex(patch);
+    std::size_t patch = patch_of(begin);
+    for (std::size_t first = mesh_.first_vertex(patch); first < end; ++patch) {
       const std::size_t inner = mesh_.inner[patch];
-      if (first >= end) {
-        break;
-      }
       if (first >= begin && inner > first) {
         make_room(first, inner - first);
-        add_boundary(patch);
+        add_boundary(patch, inner - first);
         filled_ += inner - first;
       }
-      run_rows(patch, rows_before(patch, begin), rows_before(patch, end));
+      const std::size_t points = mesh_.inner_points(patch);
+      if (points > 0) {
+        run_rows(patch, rows_before(patch, begin), rows_before(patch, end));
+      }
+      first = inner + points;
     }
     pass_on();
     sink_.finish();
@@ -102,9 +103,6 @@ public:
 private:
   static std::size_t lines_bytes(const VertexSizes<T>& sizes) noexcept {
     return whole_lines(ParameterLines<T>::memory_values(sizes.most_rate) * sizeof(T));
-  }
-  static std::size_t grids_bytes(const VertexTask<T>& task) noexcept {
-    return ClosedGrids<T>::bytes(*task.mesh, task.dimension > 0, task.normals);
   }
   static unsigned char* take(unsigned char*& memory, std::size_t bytes) noexcept {
     unsigned char* const taken = memory;
@@ -127,7 +125,7 @@ private:
     const std::size_t inner = mesh_.inner[patch];
     const std::size_t columns = mesh_.nu[patch] - 1;
     const std::size_t rows = mesh_.nv[patch] - 1;
-    if (vertex <= inner || columns == 0) {
+    if (vertex <= inner) {
       return 0;
     }
     const std::size_t before = vertex - inner; // most patches lie before both ends of a share
@@ -152,24 +150,27 @@ private:
     filled_ = 0;
   }
 
-  /// The corners and edges that a patch owns.
-  void add_boundary(std::size_t patch) noexcept {
+  /// The corners and edges that a patch owns, which have so many vertices.
+  void add_boundary(std::size_t patch, std::size_t vertices) noexcept {
     if (!samples_.has_room()) {
       store_boundaries();
     }
-    mesh_.topology.data()->for_owned(
-        patch,
-        [this](std::uint32_t corner) {
-          if (!plain_.put_corner(corner, target_)) {
-            samples_.add_corner(corner);
-          }
-        },
-        [this](std::uint32_t edge) {
-          if (!plain_.add_edge(edge, target_)) {
-            plain_.run(target_); // the lines of its parameters may give way to others
-            samples_.add_edge(edge);
-          }
-        });
+    const TopologyData& topology = *mesh_.topology.data();
+    topology.for_owned_corners(patch, [&](std::uint32_t corner) {
+      --vertices;
+      if (!plain_.put_corner(corner, target_)) {
+        samples_.add_corner(corner);
+      }
+    });
+    if (vertices == 0) {
+      return; // edges of single segments
+    }
+    topology.for_owned_edges(patch, [this](std::uint32_t edge) {
+      if (!plain_.add_edge(edge, target_)) {
+        plain_.run(target_); // the lines of its parameters may give way to others
+        samples_.add_edge(edge);
+      }
+    });
   }
   void store_boundaries() noexcept {
     plain_.run(target_);
@@ -181,7 +182,7 @@ private:
 
   void run_rows(std::size_t patch, std::size_t row, std::size_t last) noexcept {
     const std::size_t columns = mesh_.nu[patch] - 1;
-    if (row == last || columns == 0) {
+    if (row == last) {
       return;
     }
     const T* const x = lines_.line(mesh_.nu[patch]);
@@ -210,21 +211,24 @@ private:
       return nullptr;
     }
     const ClosedGrid<T>* const grid = grids_.of(patch);
-    return grid != nullptr && grids_.is_whole(*grid, patch) ? grid : nullptr;
+    return grid != nullptr && grid->whole ? grid : nullptr;
   }
-  void copy_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows,
-                 const PieceTarget<T>& to) const noexcept {
-    const std::size_t columns = grid.columns - std::size_t{2};
-    std::size_t at = 0;
-    for (std::size_t j = row + 1; j <= row + rows; ++j) {
-      for (std::size_t i = 1; i <= columns; ++i, ++at) {
-        T values[3] = {};
-        grids_.read_position(grid, grid.sample(i, j), values);
-        put_vertex(values, to.position, at, to.record);
-        grids_.read_normal(grid, grid.sample(i, j), values);
-        put_vertex(values, to.normal, at, to.record);
+  static void copy_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows,
+                        const PieceTarget<T>& to) noexcept {
+    static_assert(ClosedGrids<T>::kMostRate == 5);
+    with_known_count(grid.columns - std::size_t{2}, [&]<std::size_t kColumns>() {
+      const T* from = grid.first + (row + 1) * (kColumns + 2) + 1;
+      for (std::size_t c = 0; c < 6; ++c, from += ClosedGrid<T>::kPlane) {
+        T* plane = (c < 3 ? to.position : to.normal).component[c % 3];
+        for (std::size_t j = 0; j < rows && plane != nullptr; ++j) {
+          T values[kColumns];
+          std::copy_n(from + j * (kColumns + 2), kColumns, values);
+          for (std::size_t i = 0; i < kColumns; ++i, plane += to.record) {
+            *plane = values[i];
+          }
+        }
       }
-    }
+    });
   }
   /// Planes behind what the chunk holds already.
   [[nodiscard]] Planes<T> moved(const Planes<T>& planes) const noexcept {
