@@ -47,9 +47,14 @@ SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
 /// Whether whole registers of columns are evaluated column by column, all powers of Y side by side,
 /// and the cubics turned. SSE2 needs two instructions to bring a coefficient to all lanes, and six
 /// for each power of a column on an edge; turning takes two a power, and such a column is another
-/// register.
+/// register. In WebAssembly, positions gain by it, which are pairs of registers, and nothing else.
+#if defined(SIMDBEZIER_KERNELS_SIMD128)
+template <typename V>
+constexpr bool kTurnsColumns = kLanes<V> > kLanes<vec<ScalarOf<V>>>;
+#else
 template <typename V>
 constexpr bool kTurnsColumns = kSse2 && !kIsScalar<V>;
+#endif
 
 struct NoTurnedColumns {
   template <typename V>
