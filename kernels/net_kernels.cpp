@@ -1,11 +1,11 @@
 // Compiled once per instruction set: kernels for operations on control nets.
 #include "kernels/nets/casteljau.hpp"
-#include "kernels/nets/group_bounds.hpp"
 #include "kernels/nets/line_means.hpp"
 #include "kernels/nets/net_boxes.hpp"
 #include "kernels/nets/net_flatness.hpp"
 #include "kernels/nets/net_maps.hpp"
-#include "kernels/nets/net_rates.hpp"
+#include "kernels/rates/group_bounds.hpp"
+#include "kernels/rates/net_rates.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -44,7 +44,8 @@ MOST_MEMORY = 1 << 34
 NOT_JUDGES = r'^(same_bits_|installed_tree|packages|wheel|symbols_|mutation|format)|_NOT_BUILT$'
 # Tests that are asked first where a file of a folder was changed.
 NEAREST = (('tools/', r'^cli\.'), ('kernels/curve/', r'^curves\.'), ('kernels/nets/', r'^nets\.'),
-           ('src/nets/', r'^nets\.'), ('kernels/shape/', r'^shapes\.'),
+           ('kernels/rates/', r'^mesh\.'), ('src/nets/', r'^nets\.'),
+           ('kernels/shape/', r'^shapes\.'),
            ('kernels/derivative/', r'^derivatives\.'), ('kernels/pack/', r'^pack\.'),
            ('src/exact/', r'^(fallback|normals|limits)\.'))
 

@@ -2,8 +2,8 @@
 // other kinds, and corners whose diagonal is forced, are left to src/mesh/bounds/group_bound.hpp.
 #pragma once
 
-#include "kernels/nets/cell_candidates.hpp"
-#include "kernels/nets/normal_bends.hpp"
+#include "kernels/rates/cell_candidates.hpp"
+#include "kernels/rates/normal_bends.hpp"
 #include "kernels/simd/operands.hpp"
 #include "src/tables/rate_task.hpp"
 
@@ -215,49 +215,41 @@ struct RateLanes {
   }
 };
 
+/// Chooses the cells of a group, or takes those that are given, and writes their certificates.
 template <typename T>
-SIMDBEZIER_INLINE void choose_group(const detail::RateTask<T>& task, std::size_t first,
-                                    std::size_t count, const RateScratch<vec<T>>& scratch,
-                                    const RateGroup<vec<T>>& group) {
+SIMDBEZIER_INLINE void rate_group(const detail::RateTask<T>& task, std::size_t first,
+                                  std::size_t count, const RateScratch<vec<T>>& scratch,
+                                  const RateGroup<vec<T>>& group) {
   using V = vec<T>;
   RateLanes<T> lanes;
   store_vector<V>(lanes.size, group.size);
   alignas(64) T t[kLanes<V>];
   for (std::size_t p = 0; p < kLanes<V>; ++p) {
-    const double left = tolerance_of(task, first + (p < count ? p : count - 1));
-    const double scaled = left / static_cast<double>(lanes.size[p]) * (1 - 0x1p-20);
-    t[p] = scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
+    const std::size_t patch = first + (p < count ? p : count - 1);
+    if (task.choose) {
+      const double left = tolerance_of(task, patch);
+      const double scaled = left / static_cast<double>(lanes.size[p]) * (1 - 0x1p-20);
+      t[p] = scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
+    } else {
+      lanes.nu[p] = static_cast<T>(task.nu[patch]);
+      lanes.nv[p] = static_cast<T>(task.nv[patch]);
+    }
   }
   const T most = static_cast<T>(task.most);
-  const CertifiedCells<V> chosen =
-      choose_cells<V>(scratch, group, load_vector<V>(t), broadcast<V>(most));
-  lanes.store(chosen, chosen.is_coarse(scratch, group, task.fewest_looked));
-  for (std::size_t p = 0; p < count; ++p) {
+  CertifiedCells<V> found;
+  if (task.choose) {
+    found = choose_cells<V>(scratch, group, load_vector<V>(t), broadcast<V>(most));
+  } else {
+    found.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
+    found.bound = bound_of_cells<V>(scratch.nets, found.cells, group.doubt, found.diagonals);
+  }
+  lanes.store(found, found.is_coarse(scratch, group, task.fewest_looked));
+  for (std::size_t p = 0; task.choose && p < count; ++p) {
     const bool holds = lanes.is_decided(p) && tolerance_of(task, first + p) > 0 &&
                        lanes.bound[p] <= t[p] && lanes.nu[p] <= most && lanes.nv[p] <= most;
     task.nu[first + p] = holds ? static_cast<std::uint32_t>(lanes.nu[p]) : detail::kUndecided;
     task.nv[first + p] = holds ? static_cast<std::uint32_t>(lanes.nv[p]) : detail::kUndecided;
   }
-  lanes.put_bounds(task, first, count);
-}
-
-template <typename T>
-SIMDBEZIER_INLINE void certify_group(const detail::RateTask<T>& task, std::size_t first,
-                                     std::size_t count, const RateScratch<vec<T>>& scratch,
-                                     const RateGroup<vec<T>>& group) {
-  using V = vec<T>;
-  RateLanes<T> lanes;
-  store_vector<V>(lanes.size, group.size);
-  for (std::size_t p = 0; p < kLanes<V>; ++p) {
-    const std::size_t patch = first + (p < count ? p : count - 1);
-    lanes.nu[p] = static_cast<T>(task.nu[patch]);
-    lanes.nv[p] = static_cast<T>(task.nv[patch]);
-  }
-  CertifiedCells<V> certified;
-  certified.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
-  certified.bound =
-      bound_of_cells<V>(scratch.nets, certified.cells, group.doubt, certified.diagonals);
-  lanes.store(certified, certified.is_coarse(scratch, group, task.fewest_looked));
   lanes.put_bounds(task, first, count);
 }
 
@@ -281,11 +273,7 @@ Isa rate_kernel(const detail::RateTask<T>& task, std::size_t begin, std::size_t 
     const RateGroup<V> group = read_rate_group<T>(task, first, count, scratch);
     const std::size_t next = first + count;
     prefetch_nets(task.in, next, end - next < kLanes<V> ? end : next + kLanes<V>);
-    if (task.choose) {
-      choose_group<T>(task, first, count, scratch, group);
-    } else {
-      certify_group<T>(task, first, count, scratch, group);
-    }
+    rate_group<T>(task, first, count, scratch, group);
   });
   return Isa::SIMDBEZIER_ISA;
 }

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "kernels/nets/cell_screen.hpp"
+#include "kernels/rates/cell_screen.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

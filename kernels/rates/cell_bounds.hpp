@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "kernels/nets/quarter_nets.hpp"
-#include "kernels/nets/triangle_terms.hpp"
-#include "kernels/nets/whole_numbers.hpp"
+#include "kernels/rates/quarter_nets.hpp"
+#include "kernels/rates/triangle_terms.hpp"
+#include "kernels/rates/whole_numbers.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/repeat.hpp"
 #include "src/tables/rate_task.hpp"

@@ -2,9 +2,9 @@
 // of zones. Lanes are patches.
 #pragma once
 
-#include "kernels/nets/lane_hulls.hpp"
-#include "kernels/nets/triangle_terms.hpp"
-#include "kernels/nets/whole_numbers.hpp"
+#include "kernels/rates/lane_hulls.hpp"
+#include "kernels/rates/triangle_terms.hpp"
+#include "kernels/rates/whole_numbers.hpp"
 #include "src/tables/bound_task.hpp"
 #include "src/tables/rate_task.hpp"
 

@@ -2,7 +2,7 @@
 // docs/tessellation.md. Bicubic polynomial patches have kernels of their own (net_rates.hpp).
 #pragma once
 
-#include "kernels/nets/group_nets.hpp"
+#include "kernels/rates/group_nets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -2,7 +2,7 @@
 // proves nothing, as src/mesh/bounds/normal_bends.hpp has it for all kinds of patches.
 #pragma once
 
-#include "kernels/nets/cell_bounds.hpp"
+#include "kernels/rates/cell_bounds.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

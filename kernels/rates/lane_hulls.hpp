@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "kernels/nets/lane_nets.hpp"
 #include "kernels/nets/net_boxes.hpp"
+#include "kernels/rates/lane_nets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -2,7 +2,7 @@
 // bound of cells of about the same shape.
 #pragma once
 
-#include "kernels/nets/cell_bounds.hpp"
+#include "kernels/rates/cell_bounds.hpp"
 #include "kernels/simd/operands.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -2,7 +2,7 @@
 // of: lanes are patches.
 #pragma once
 
-#include "kernels/nets/diagonal_bounds.hpp"
+#include "kernels/rates/diagonal_bounds.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
