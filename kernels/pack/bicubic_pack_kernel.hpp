@@ -34,14 +34,16 @@ public:
   /// Packs `count` nets from the first on, 1 <= count <= kWideLanes. Returns false where a
   /// coefficient may have become infinite or nan.
   bool pack(std::size_t first, std::size_t count) {
+    if (count < kWideLanes) {
+      return pack_rest(first, count);
+    }
     first_ = first;
-    count_ = count;
     const S* from =
         task_.nets.points + static_cast<std::ptrdiff_t>(first) * task_.nets.patch_stride;
     std::ptrdiff_t stride = task_.nets.patch_stride;
     alignas(64) S packed[kWideLanes * kNet];
-    if (!triples_ || count < kWideLanes) {
-      gather(packed);
+    if (!triples_) {
+      gather(first, count, packed);
       from = packed;
       stride = kNet;
     }
@@ -64,10 +66,10 @@ private:
   using Lanes = std::conditional_t<kMoved, MovedLanes, PlainLanes>;
 
   /// Copies nets of any layout to kWideLanes packed ones; the last is repeated.
-  void gather(S* packed) const {
+  void gather(std::size_t first, std::size_t count, S* packed) const {
     const ControlNets<S>& nets = task_.nets;
     for (std::size_t p = 0; p < kWideLanes; ++p) {
-      const auto patch = static_cast<std::ptrdiff_t>(first_ + (p < count_ ? p : count_ - 1));
+      const auto patch = static_cast<std::ptrdiff_t>(first + (p < count ? p : count - 1));
       const S* const net = nets.points + patch * nets.patch_stride;
       for (int k = 0; k < 16; ++k) {
         const S* const point = net + k / 4 * nets.row_stride + k % 4 * nets.point_stride;
@@ -75,6 +77,42 @@ private:
           *packed++ = point[c * nets.component_stride];
         }
       }
+    }
+  }
+
+  /// Packs the last, incomplete group of a range: it is computed whole, and copied in part. Stores
+  /// that ask how many lanes there are take two to six percent longer for doubles.
+  bool pack_rest(std::size_t first, std::size_t count) const {
+    alignas(64) S packed[kWideLanes * kNet];
+    alignas(64) T coefficients[kWideLanes * kNet];
+    alignas(64) T edges[kWideLanes * detail::kEdgeBlock];
+    alignas(64) S control_points[kWideLanes * kNet];
+    alignas(64) T origins[kWideLanes * detail::kOriginBlock];
+    T floors[kWideLanes];
+    gather(first, count, packed);
+    detail::PackTask<T, S> whole = task_;
+    whole.nets = ControlNets<S>::packed(packed, kWideLanes, 3, 3);
+    whole.coefficients = coefficients;
+    whole.edges = edges;
+    whole.control_points = control_points;
+    whole.origins = task_.origins == nullptr ? nullptr : origins;
+    whole.normal_floor = floors;
+    whole.streaming = false;
+    const bool safe = BicubicGroup(whole).pack(0, kWideLanes);
+    put_rest(coefficients, kNet, first, count, task_.coefficients);
+    put_rest(edges, detail::kEdgeBlock, first, count, task_.edges);
+    put_rest(control_points, kNet, first, count, task_.control_points);
+    put_rest(origins, task_.origins == nullptr ? 0 : detail::kOriginBlock, first, count,
+             task_.origins);
+    put_rest(floors, 1, first, count, task_.normal_floor);
+    return safe;
+  }
+  /// Copies `values` values of each patch to the places of patches from the first on.
+  template <typename Value>
+  static void put_rest(const Value* from, std::size_t values, std::size_t first, std::size_t count,
+                       Value* to) {
+    for (std::size_t k = 0; k < count * values; ++k) {
+      to[first * values + k] = from[k];
     }
   }
 
@@ -137,9 +175,9 @@ private:
     }
     store_block(corners, edges + detail::kCornersAt, detail::kEdgeBlock);
     if (tiny.any()) [[unlikely]] {
-      keep_edges_from_zero(kBicubic, edges, count_);
+      keep_edges_from_zero(kBicubic, edges, kWideLanes);
     }
-    store_value(normal_floor.value(), task_.normal_floor + first_, 1, count_);
+    store_value(normal_floor.value(), task_.normal_floor + first_, 1, kWideLanes);
   }
 
   /// Stores 16 values of each patch, from registers that may carry more than doubles.
@@ -149,14 +187,7 @@ private:
     for (std::size_t k = 0; k < 16; ++k) {
       out[k] = to_wide(values[k]);
     }
-    if (count_ == kWideLanes) {
-      return store_transposed_16(out, to, static_cast<std::ptrdiff_t>(stride), task_.streaming);
-    }
-    store_few(out, to, stride);
-    store_few(out + kTransposed, to + kTransposed, stride);
-  }
-  SIMDBEZIER_PART void store_few(const Wide* values, T* to, std::size_t stride) const {
-    store_lanes(values, to, static_cast<std::ptrdiff_t>(stride), count_);
+    store_transposed_16(out, to, static_cast<std::ptrdiff_t>(stride), task_.streaming);
   }
 
   /// Takes the origins from component c, and stores them.
@@ -169,15 +200,15 @@ private:
     for (std::size_t e = 0; e < detail::kEdges; ++e) {
       origins[detail::kEdgeOriginsAt + e] = take_origin<T>(formed.edges[e]);
     }
-    store_lanes(origins,
-                task_.origins + first_ * detail::kOriginBlock + c * detail::kOriginsPerComponent,
-                static_cast<std::ptrdiff_t>(detail::kOriginBlock), count_);
+    store_transposed(
+        origins, task_.origins + first_ * detail::kOriginBlock + c * detail::kOriginsPerComponent,
+        static_cast<std::ptrdiff_t>(detail::kOriginBlock));
   }
 
   /// Keeps the control points as given, with +0 for -0.
   SIMDBEZIER_INLINE void keep_points(const S* from, std::ptrdiff_t stride) const {
     S* to = task_.control_points + first_ * kNet;
-    for (std::size_t p = 0; p < count_; ++p, from += stride, to += kNet) {
+    for (std::size_t p = 0; p < kWideLanes; ++p, from += stride, to += kNet) {
       for (std::size_t e = 0; e < kNet; e += kLanes<vec<S>>) {
         store_line<vec<S>>(to + e, load_vector<vec<S>>(from + e) + vec<S>(S(0)), task_.streaming);
       }
@@ -187,7 +218,6 @@ private:
   const detail::PackTask<T, S>& task_;
   bool triples_;
   std::size_t first_ = 0;
-  std::size_t count_ = 0;
 };
 
 /// Packs patches [begin, end) up to the first group that may hold a fault; see PackDoubt.
