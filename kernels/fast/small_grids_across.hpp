@@ -43,6 +43,8 @@ struct SmallGridAcross {
             point(task.runs[1].y[3])} {}
 
   [[nodiscard]] SIMDBEZIER_PART std::size_t samples() const { return nu * nv; }
+  /// Whether there are samples besides corners, whose values and derivatives edges determine.
+  [[nodiscard]] SIMDBEZIER_PART bool has_more() const { return kInner > 0 || nu + nv > 4; }
   /// These two call f(i) for the columns and for the rows between the edges.
   template <typename F>
   SIMDBEZIER_INLINE void for_columns(const F& f) const {
@@ -101,13 +103,17 @@ template <typename V>
 struct ComponentAcross {
   using T = ScalarOf<V>;
 
-  V matrix[kOrder * kOrder]; ///< [power of X][power of Y]
+  V matrix[kOrder * kOrder]; ///< [power of X][power of Y]; for corners nothing
   V edge[kOrder * kEdges];   ///< [power][edge]
   V corner[kEdges];
 
-  SIMDBEZIER_PART ComponentAcross(const GridTask<T>& task, std::size_t patch, std::size_t c) {
+  template <typename Grid>
+  SIMDBEZIER_PART ComponentAcross(const GridTask<T>& task, const Grid& grid, std::size_t patch,
+                                  std::size_t c) {
     const Component<T> first(task, patch, c);
-    load_values_across<kOrder * kOrder>(first.matrix, detail::kCoefficients, matrix);
+    if (grid.has_more()) {
+      load_values_across<kOrder * kOrder>(first.matrix, detail::kCoefficients, matrix);
+    }
     load_values_across<kOrder * kEdges>(first.edge, detail::kEdgeBlock, edge);
     load_values_across<kEdges>(first.corner, detail::kEdgeBlock, corner);
   }
@@ -217,7 +223,7 @@ SIMDBEZIER_KERNEL void sweep_positions_across(const GridTask<T>& shared_task) {
     constexpr bool kApart = kTurnsLines<V> && kInner == 2; // more code is no faster
     for_components<kApart>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       V sample[kMostSmallSamples];
-      positions_across(ComponentAcross<V>(task, patch, c), grid, sample);
+      positions_across(ComponentAcross<V>(task, grid, patch, c), grid, sample);
       put_across(task, Output::position, c, patch, sample, grid.samples());
     });
     drain_some(task.drain, fresh * 3 * grid.samples());

@@ -43,14 +43,16 @@ struct JetsAcross {
       p[along_u + nu - 1] = c.corner[detail::corner_index(1, s)];
       du[along_u] = row_slope(q, grid.end[0]);
       du[along_u + nu - 1] = row_slope(q, grid.end[1]);
-      V of_patch[kOrder]; // the edge's control points do not determine du
-      c.column(grid.end[s].y, of_patch, dq);
       c.edge_cubic(detail::kEdgeU0 + s, q);
-      grid.for_rows([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
-        const std::size_t at = (1 + r) * nu + along_v;
-        p[at] = row_value(q, grid.row[r], dv[at]);
-        du[at] = row_value(dq, grid.row[r]);
-      });
+      if (grid.has_more()) {
+        V of_patch[kOrder]; // the edge's control points do not determine du
+        c.column(grid.end[s].y, of_patch, dq);
+        grid.for_rows([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+          const std::size_t at = (1 + r) * nu + along_v;
+          p[at] = row_value(q, grid.row[r], dv[at]);
+          du[at] = row_value(dq, grid.row[r]);
+        });
+      }
       dv[along_v] = row_slope(q, grid.end[0]);
       dv[last_row + along_v] = row_slope(q, grid.end[1]);
     });
@@ -65,7 +67,7 @@ SIMDBEZIER_KERNEL void sweep_derivatives_across(const GridTask<T>& shared_task) 
   for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
     for (std::size_t c = 0; c < 3; ++c) {
       JetsAcross<V> jets;
-      jets.find(ComponentAcross<V>(task, patch, c), grid);
+      jets.find(ComponentAcross<V>(task, grid, patch, c), grid);
       put_across(task, Output::position, c, patch, jets.p, grid.samples());
       put_across(task, Output::du, c, patch, jets.du, grid.samples());
       put_across(task, Output::dv, c, patch, jets.dv, grid.samples());
@@ -112,7 +114,7 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
   for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
     JetsAcross<V> jets[3];
     for (std::size_t c = 0; c < 3; ++c) {
-      jets[c].find(ComponentAcross<V>(task, patch, c), grid);
+      jets[c].find(ComponentAcross<V>(task, grid, patch, c), grid);
       put_across(task, Output::position, c, patch, jets[c].p, grid.samples());
     }
     const V floor = load_vector<V>(task.normal_floor + patch);
