@@ -39,7 +39,8 @@ struct MeshOutputs {
 /// Position:   on an edge and in a corner, that of the lowest patch there. If control points are
 ///             equal, all others have the same position bit for bit.
 /// Normal:     the sum of the unit normals of all patches that have the vertex, in ascending order
-///             of patch and side or corner, over its length; those of turned patches are reversed.
+///             of patch and side or corner, over its length. Those of patches that the topology
+///             turned are reversed, zero ones add nothing.
 ///             On an edge of two sides, a patch whose normals disagree with the first one's is left
 ///             out unless it is turned. If the sum is shorter than 0.001 of the number of normals,
 ///             the first normal stays.

@@ -88,14 +88,14 @@ struct PackOptions {
 
 /// Packs the patches of control nets into a set, which evaluate() takes.
 /// Formula:    C = A P A^T, from Bernstein to powers of the centred parameter; polynomials of edges
-///             from each edge's own control points. Directions of degree 6 or more are halved
-/// first. nets:       S = float or double; the memory may be freed after the call. A view of one
-///             patch costs as much as a view of 8. Patches are numbered through all nets.
+///             from each edge's own control points. Directions of degree 6 or more are cut first.
+/// nets:       S = float or double; the memory may be freed after the call. A view of one patch
+///             costs as much as a view of 8. Patches are numbered through all nets.
 /// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results
 ///             do not depend on the instruction set, threads or other patches. -0 becomes +0.
 /// Allocation: one block for each shape and form of weights: for bicubic patches in space 113 T and
-///             48 S a patch, four times the control points and more if directions are halved. About
-///             150 KiB of stack per thread.
+///             48 S a patch, since control points are kept; four times these and more if directions
+///             are cut. About 150 KiB of stack per thread.
 /// Returns:    ok | the statuses of views | bad_components (also: not the same in all nets) |
 ///             bad_weight (also: below the smallest normal T, or infinite as T) | non_finite_input
 ///             | coefficient_overflow | size_overflow (also: strides that lead beyond addressable

@@ -99,7 +99,8 @@ template <typename S>
 ///              over barycentric coordinates l; Q_ij is the largest second derivative of S along
 ///              edge ij, over control vectors of the patch's quarters. Vertices that a neighbour
 ///              adds to an edge do not raise it. docs/tessellation.md has the proof, and closer
-///              bounds of rational patches, of weights that are products, and of uneven parameters.
+///              bounds of rational patches, of weights that are products, and of uneven parameters
+///              or weights more than 4.5-fold apart.
 /// Source:      Filip, Magedson, Markot, Surface Algorithms Using Bounds on Derivatives, CAGD 3,
 ///              1986. Their bound uses the triangle inequality for the diagonal.
 /// Determinism: a function of the control points, and of rates that are kept; the same in each
@@ -113,8 +114,8 @@ template <typename S>
 ///              running. The report names the patch. Outputs are undefined on an error.
 /// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch, 0.65 us in double. On AVX2, other
 ///              degrees and forced diagonals take 1 to 4 us up to degree 5 and 15 us for degree 15,
-///              with weights 35 us, or up to 100 us if these are products. Uneven parameters add 5
-///              us a cell of a bicubic patch, up to a second.
+///              with weights 35 us, and up to 100 us more if these are products. Uneven parameters
+///              add 5 us a cell of a bicubic patch, up to a second. Certificates are included.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<S>> nets,
                                                  const Topology& topology,

@@ -167,8 +167,9 @@ struct EdgeLink {
 /// nets:      views of any degrees: an edge of degree 3 of a 3 x 5 patch may match one of a 7 x 3
 ///            patch. Patches are numbered through, view after view.
 /// edges:     [4 * patch + PatchEdge]; may not overlap the memory from the first to the last value
-///            of any view. A shared edge gets the other one, a non_manifold edge the next one with
-///            the same points, in order of patch and edge, and the last of them the first.
+///            of any view, gaps included. A shared edge gets the other one, a non_manifold edge the
+///            next one with the same points, in order of patch and edge, and the last of them the
+///            first. edge, reversed and patch of boundary and collapsed edges are 0.
 /// Match:     equal degree and components, and bit-equal control points, weights included, in the
 ///            same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
 ///            counts as none; other weights must have the same form. Such edges are watertight.
