@@ -2,8 +2,8 @@
 // curves as fit in.
 //
 // A line of each plane, or three of triples, are computed in registers and leave at once, past the
-// caches as well. Where curves are lanes (curve/lanes_are_curves.hpp) rows are put together from
-// pieces of 128 bits, which wait in the store queue behind those to memory.
+// caches as well. With curves in lanes, rows would have to be put together from pieces of 128 bits,
+// which wait in the store queue behind those to memory.
 #pragma once
 
 #include "kernels/curve/curve_rows.hpp"
