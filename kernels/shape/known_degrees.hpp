@@ -21,12 +21,17 @@ SIMDBEZIER_PART std::size_t own_edge(const GridTask<T>& task, const RowRun<T>& r
   return task.watertight && is_edge(run.kind) ? edge_of(run.kind) : kEdges;
 }
 
-/// Sweeps all rows of a register of columns. kFull says that all lanes are columns.
+/// Whether rows of a plan can be evaluated two at a time, Y and -Y.
+template <typename P>
+inline constexpr bool kInPairs = takes_even_odd(P::OrderV::kMost) &&
+                                 (P::kDepth == 0 || (P::kDepth == 1 && P::kSingle));
+
+/// Sweeps all rows of a register of columns. kFull says that all lanes are columns; kPairs, that
+/// pairs_pay().
 ///
-/// The loop over runs stands in this file four times. With edge rows inside of the loop over a
-/// run, or single and paired rows in one loop, polynomials leave the registers, which costs 10 to
-/// 30 % of the speed (docs/experiments.md).
-template <typename P, bool kFull, typename T>
+/// Rows on edges, pairs and single rows have loops of their own: in one loop, polynomials leave the
+/// registers, which costs 10 to 30 % of the speed (docs/experiments.md).
+template <typename P, bool kFull, bool kPairs, typename T>
 SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
                                 const typename ShapeColumns<P, vec<T>>::Edges& edges,
                                 SampleRange<vec<T>> range) {
@@ -42,47 +47,37 @@ SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, v
   for (std::size_t r = 0; r < task.run_count; ++r) {
     const RowRun<T> run = task.runs[r];
     const std::size_t edge = own_edge(task, run);
-    range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
-    if (edge < kEdges) {
-      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
-        SampleJet<V> jet;
-        evaluate(run.y[j], jet);
-        edges.replace_row(edge, jet);
-        store_sample<P>(task, range, jet);
-      }
-    } else {
-      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
-        SampleJet<V> jet;
-        evaluate(run.y[j], jet);
-        store_sample<P>(task, range, jet);
-      }
+    if constexpr (!P::kSingle) {
+      range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
     }
-  }
-}
-
-/// This is sweep_rows() for positions, of which edges need nothing that the columns give.
-template <typename P, bool kFull, typename T>
-SIMDBEZIER_PART void
-sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
-                const typename ShapeColumns<P, vec<T>>::Edges& edges, SampleRange<vec<T>> range) {
-  using V = vec<T>;
-  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
-  const ColumnOrigins<V>* const origins = columns.origins();
-  range.active = kFull ? kLanes<V> : range.active;
-  for (std::size_t r = 0; r < task.run_count; ++r) {
-    const RowRun<T> run = task.runs[r];
-    const std::size_t edge = own_edge(task, run);
     if (edge < kEdges) {
-      SampleJet<V> on_edge;
-      edges.replace_row(edge, on_edge);
-      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
-        store_sample<P>(task, range, on_edge);
+      SampleJet<V> jet;
+      if constexpr (P::kDepth > 0) { // of positions, edges need nothing that the columns give
+        evaluate(run.y[0], jet);
       }
+      edges.replace_row(edge, jet);
+      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+        store_sample<P>(task, range, jet);
+      }
+    } else if constexpr (kPairs) {
+      SampleRange<V> image = range;
+      image.at += (run.rows - 1) * task.nu;
+      const std::size_t behind = image.at + task.nu;
+      const std::size_t pairs = (run.rows + 1) / 2;
+      for (std::size_t j = 0; j < pairs; ++j, range.at += task.nu, image.at -= task.nu) {
+        SampleJet<V> jet;
+        SampleJet<V> mirrored;
+        polynomials.evaluate_pair(columns.slots(), broadcast<V>(run.y[j]), origins, jet, mirrored);
+        store_sample<P>(task, range, jet);
+        if (range.at != image.at) {
+          store_sample<P>(task, image, mirrored);
+        }
+      }
+      range.at = behind;
     } else {
       for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
-        const V y = broadcast<V>(run.y[j]);
         SampleJet<V> jet;
-        polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &y, origins, &jet);
+        evaluate(run.y[j], jet);
         store_sample<P>(task, range, jet);
       }
     }
@@ -116,68 +111,15 @@ SIMDBEZIER_KERNEL void sweep_single(const GridTask<T>& task, const ShapeColumns<
   }
 }
 
-/// Whether all rows that are on no edge are pairs Y and -Y whose registers share no lines. Rows
-/// that are both at zero are no pair: signs of zeros could differ.
+/// Whether all rows that are on no edge are pairs Y and -Y whose registers share no lines.
 template <typename T>
 SIMDBEZIER_PART bool pairs_pay(const GridTask<T>& task) {
   bool mirrored = task.nu % kLanes<vec<T>> == 0;
   for (std::size_t r = 0; r < task.run_count && mirrored; ++r) {
     const RowRun<T> run = task.runs[r];
-    if (own_edge(task, run) < kEdges) {
-      continue;
-    }
-    mirrored = are_mirrored(run.y, run.rows);
-    for (std::size_t j = 0; j < run.rows / 2; ++j) {
-      mirrored = mirrored && run.y[j] != T(0);
-    }
+    mirrored = own_edge(task, run) < kEdges || are_mirrored(run.y, run.rows);
   }
   return mirrored;
-}
-
-/// Whether the rows of a plan can be evaluated two at a time.
-template <typename P>
-inline constexpr bool kInPairs = takes_even_odd(P::OrderV::kMost) &&
-                                 (P::kDepth == 0 || (P::kDepth == 1 && P::kSingle));
-
-/// Sweeps rows of whole registers where pairs_pay().
-template <typename P, typename T>
-SIMDBEZIER_PART void sweep_pairs(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
-                                 const typename ShapeColumns<P, vec<T>>::Edges& edges,
-                                 SampleRange<vec<T>> range) {
-  using V = vec<T>;
-  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
-  const ColumnOrigins<V>* const origins = columns.origins();
-  range.active = kLanes<V>;
-  for (std::size_t r = 0; r < task.run_count; ++r) {
-    const RowRun<T> run = task.runs[r];
-    const std::size_t edge = own_edge(task, run);
-    if (edge < kEdges) {
-      SampleJet<V> on_edge;
-      if constexpr (P::kDepth > 0) { // of positions, edges need nothing that the columns give
-        const V y = broadcast<V>(run.y[0]);
-        polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &y, origins, &on_edge);
-      }
-      edges.replace_row(edge, on_edge);
-      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
-        store_sample<P>(task, range, on_edge);
-      }
-    } else {
-      SampleRange<V> image = range;
-      image.at += (run.rows - 1) * task.nu;
-      const std::size_t behind = image.at + task.nu;
-      const std::size_t pairs = (run.rows + 1) / 2;
-      for (std::size_t j = 0; j < pairs; ++j, range.at += task.nu, image.at -= task.nu) {
-        SampleJet<V> jet;
-        SampleJet<V> mirrored;
-        polynomials.evaluate_pair(columns.slots(), broadcast<V>(run.y[j]), origins, jet, mirrored);
-        store_sample<P>(task, range, jet);
-        if (range.at != image.at) {
-          store_sample<P>(task, image, mirrored);
-        }
-      }
-      range.at = behind;
-    }
-  }
 }
 
 /// Whether single columns have a loop of their own: where meshes with normals ask for them.
@@ -211,19 +153,17 @@ SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shap
   }
   if constexpr (kInPairs<P>) {
     if (pairs) {
-      return sweep_pairs<P>(task, columns, edges, range);
+      return sweep_rows<P, true, true>(task, columns, edges, range);
     }
   }
-  if constexpr (P::kDepth == 0) {
-    left == kLanes<V> ? sweep_positions<P, true>(task, columns, edges, range)
-                      : sweep_positions<P, false>(task, columns, edges, range);
-  } else if constexpr (P::kSingle) {
-    left == kLanes<V> ? sweep_rows<P, true>(task, columns, edges, range)
-                      : sweep_rows<P, false>(task, columns, edges, range);
+  if constexpr (P::kDepth == 0 || P::kSingle) {
+    if (left == kLanes<V>) {
+      return sweep_rows<P, true, false>(task, columns, edges, range);
+    }
   } else { // much code, and many operations for each store
     range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
-    sweep_rows<P, false>(task, columns, edges, range);
   }
+  sweep_rows<P, false, false>(task, columns, edges, range);
 }
 
 template <typename P, typename T>
