@@ -95,8 +95,8 @@ double NormalBends::at(const CellCounts& cells) const {
   const double v = 1.0 / cells.nv;
   const double mixed = 2 * u * v;
   double most = 0;
-  for (const std::size_t from_u : {0, 1}) {
-    for (const std::size_t from_v : {0, 1}) {
+  for (std::size_t from_u = 0; from_u < 2; ++from_u) {
+    for (std::size_t from_v = 0; from_v < 2; ++from_v) {
       double rising = 0;
       double falling = 0;
       for (std::size_t i = from_u; i <= from_u + 1; ++i) {
