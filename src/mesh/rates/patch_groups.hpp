@@ -47,8 +47,8 @@ private:
   std::size_t first_ = 0;
 };
 
-/// Calls visit(group) for these patches of a view, some at a time, in parallel; the report names the
-/// first of them at fault. flags_of(patch): its RateFlags.
+/// Calls visit(group) for these patches of a view, some at a time, in parallel; the report names
+/// the first of them at fault. flags_of(patch): its RateFlags.
 template <typename S, typename FlagsOf, typename Visit>
 Report visit_groups(const ControlNets<S>& nets, std::span<const std::uint32_t> patches,
                     const FlagsOf& flags_of, Isa isa, int threads, const Visit& visit) {
