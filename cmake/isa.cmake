@@ -175,7 +175,8 @@ function(simdbezier_add_kernel_objects row)
   simdbezier_isa_flags(${row_name} flags)
   string(TOUPPER ${row_name} upper)
   set(object simdbezier_kernels_${row_name})
-  set(sources bicubic_kernels.cpp shape_kernels.cpp curve_kernels.cpp net_kernels.cpp mesh_kernels.cpp)
+  set(sources bicubic_kernels.cpp shape_f32_kernels.cpp shape_f64_kernels.cpp curve_kernels.cpp
+              net_kernels.cpp mesh_kernels.cpp)
   list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
   add_library(${object} OBJECT ${sources})
   # Alone even where other sources are compiled several as one: the longest ones of a build must run

@@ -39,7 +39,7 @@ SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
 
 /// Finds unit normals of a polynomial patch's samples by their leading coefficient
 /// (poly/normal_start.hpp), component by component, and the numbers of the coefficients, or -1
-/// where nothing is certain; in whole registers. shape_kernels.cpp has it for all objects.
+/// where nothing is certain; in whole registers. shape_f64_kernels.cpp has it for all objects.
 void start_normals(const detail::NetShape& shape, const detail::GivenNet& net, double tolerance,
                    const double* x, const double* y, std::size_t count, double* normals,
                    std::size_t step, double* orders);
