@@ -20,7 +20,8 @@ SIMDBEZIER_KERNEL void evaluate_rows(const CurveTask<T>& task) {
   }
   const bool cubic = task.shape->degree == 3;
   if constexpr (kLanes<vec<T>> * sizeof(T) >= 32) {
-    const std::size_t curves = cubic && !task.shape->origins ? curves_in_register<T>(task.n) : 0;
+    const bool lines = detail::rows_fill_lines<T>(*task.shape, task.n);
+    const std::size_t curves = lines ? curves_in_register<T>(task.n) : 0;
     if constexpr (kMostCurves<T> >= 4) {
       if (curves == 4) {
         return fill_lines<4>(task, out);

@@ -15,14 +15,11 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T>
 inline constexpr std::size_t kLineSamples = 64 / sizeof(T);
 
-/// Returns how many curves a register holds of rows of n samples: 1 where a row is a register or
-/// more, 0 where rows are not written by lines.
+/// Returns how many curves a register holds of rows of n samples that fill lines: 1 where a row is
+/// a register or more.
 template <typename T>
 SIMDBEZIER_PART std::size_t curves_in_register(std::size_t n) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
-  if (n < 4 || kLineSamples<T> % n != 0) {
-    return 0;
-  }
   return n < kAll ? kAll / n : 1;
 }
 /// This is the most that it returns.

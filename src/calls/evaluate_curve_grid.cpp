@@ -22,12 +22,6 @@ bool can_go_in_rows(const CurveShape& shape, const OutputList<T>& out,
          (position.stride == 1 || are_triples(position));
 }
 
-/// Whether cubics of n samples fill cache lines, a curve or several each, which kernels compute in
-/// registers.
-bool fill_lines(const CurveShape& shape, std::size_t line, std::size_t n) noexcept {
-  return shape.degree == 3 && !shape.origins && n >= kLeastRow && line % n == 0;
-}
-
 /// Whether kernels write rows of n samples. They stream them from registers: as whole lines, or as
 /// the end of one curve and the beginning of the next. That pays with registers of 32 bytes and
 /// more, since in smaller ones most of what it costs serves few samples; other rows that go past
@@ -36,7 +30,7 @@ bool fill_lines(const CurveShape& shape, std::size_t line, std::size_t n) noexce
 template <typename T>
 bool pays_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
                   const KernelTable<T>& table, std::size_t n) noexcept {
-  const bool lines = fill_lines(shape, 64 / sizeof(T), n);
+  const bool lines = rows_fill_lines<T>(shape, n);
   if (outputs.streaming()) {
     const bool joined = shape.degree == 3 && !shape.origins && n >= table.lanes && n <= kMostJoined;
     return table.lanes * sizeof(T) >= 32 && (lines || joined);

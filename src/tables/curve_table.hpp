@@ -57,6 +57,13 @@ inline constexpr std::size_t kMostRow = 64;
 /// curve/joined_rows.hpp), and those that whole lines hold (curve/lines_of_curves.hpp).
 inline constexpr std::size_t kMostJoined = 1024;
 
+/// Whether cubics of n samples without origins fill cache lines, a curve or several each, which
+/// kernels compute in registers.
+template <typename T>
+[[nodiscard]] constexpr bool rows_fill_lines(const CurveShape& shape, std::size_t n) noexcept {
+  return shape.degree == 3 && !shape.origins && n >= kLeastRow && 64 / sizeof(T) % n == 0;
+}
+
 /// Consecutive curves at the same parameters: sample i of the k-th one goes to plane[k * n + i].
 template <typename T>
 struct CurveTask : CurveArrays<T> {

@@ -45,36 +45,35 @@ struct PointBlock {
   }
 };
 
-/// Turns sums of unit normals into normals: sum * inverse + kept * first + 0, where first is the
-/// first term. That is the sum's direction; a single term stays as it is, and so does the first one
-/// where the sum is less than a thousandth of what it could be. finish_sum() of the kernels for
-/// edges does the same operations. Values are those of a block of points.
 template <typename Values>
-struct MergedScale {
-  Values inverse;
-  Values kept; ///< 1 where the first term stays, else 0
-
-  /// square: of the sum's length. terms: of the sum.
-  MergedScale(const Values& square, const Values& terms) noexcept {
-    using T = std::decay_t<decltype(square[0])>;
-    const Values least = kLeastSum<T> * terms;
-    const Values zero = square - square; // squares of sums of unit vectors are finite
-    const Values one = zero + T(1);
-    const Values none = zero + std::numeric_limits<T>::infinity();
-    const auto merges = square >= (terms > one ? least * least : none);
-    kept = merges ? zero : one;
-    inverse = (one - kept) / root_of(square + kept);
+Values roots_of(const Values& values) noexcept {
+  Values roots = values; // g++ at -O1 warns of one that is set lane by lane
+  for (std::size_t k = 0; k < sizeof values / sizeof values[0]; ++k) {
+    roots[k] = std::sqrt(roots[k]);
   }
+  return roots;
+}
 
-private:
-  static Values root_of(const Values& values) noexcept {
-    Values roots = values; // g++ at -O1 warns of one that is set lane by lane
-    for (std::size_t k = 0; k < sizeof values / sizeof values[0]; ++k) {
-      roots[k] = std::sqrt(roots[k]);
-    }
-    return roots;
+/// Turns sums of unit normals at a block of points into normals: sum * inverse + kept * first + 0,
+/// never -0, where first is the first term. That is the sum's direction; a single term stays as it
+/// is, and so does the first one where the sum is less than a thousandth of what it could be.
+/// finish_sum() of the kernels for edges does the same operations. terms: of each sum.
+template <typename Values>
+void finish_sums(const Values (&first)[3], const Values (&sum)[3], const Values& terms,
+                 Values (&normal)[3]) noexcept {
+  using T = std::decay_t<decltype(terms[0])>;
+  const Values square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+  const Values least = kLeastSum<T> * terms;
+  const Values zero = square - square; // squares of sums of unit vectors are finite
+  const Values one = zero + T(1);
+  const Values none = zero + std::numeric_limits<T>::infinity();
+  const auto merges = square >= (terms > one ? least * least : none);
+  const Values kept = merges ? zero : one;
+  const Values inverse = (one - kept) / roots_of(square + kept);
+  for (std::size_t c = 0; c < 3; ++c) {
+    normal[c] = sum[c] * inverse + kept * first[c] + T(0);
   }
-};
+}
 
 /// Sums of unit normals at the points of a block, whose terms are added patch by patch. A whole
 /// block is read from every plane, however few points are wanted.
@@ -102,13 +101,10 @@ public:
   /// Writes the normals of some points to every step-th place.
   void finish(std::size_t points, const Planes<T>& to, std::size_t place,
               std::size_t step) const noexcept {
-    using Values = typename Block::Values;
-    const Values square = sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2];
-    const MergedScale<Values> scale(square, Values{} + static_cast<T>(terms_));
+    typename Block::Values normal[3];
+    finish_sums(first_, sum_, typename Block::Values{} + static_cast<T>(terms_), normal);
     for (std::size_t c = 0; c < 3; ++c) {
-      // never -0
-      const Values value = sum_[c] * scale.inverse + scale.kept * first_[c] + T(0);
-      Block::store(value, points, to.component[c] + place * step, step);
+      Block::store(normal[c], points, to.component[c] + place * step, step);
     }
   }
 
@@ -197,14 +193,14 @@ public:
     using Block = PointBlock<T>;
     using Values = typename Block::Values;
     for (std::size_t k = 0; k < count_; k += Block::kPoints) {
+      const Values first[3] = {Block::load(first_[0] + k), Block::load(first_[1] + k),
+                               Block::load(first_[2] + k)};
       const Values sum[3] = {Block::load(sum_[0] + k), Block::load(sum_[1] + k),
                              Block::load(sum_[2] + k)};
-      const Values square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
-      const MergedScale<Values> scale(square, Block::load(terms_ + k));
-      for (std::size_t c = 0; c < 3; ++c) { // never -0
-        const Values first = Block::load(first_[c] + k);
-        Block::store(sum[c] * scale.inverse + scale.kept * first + T(0), Block::kPoints,
-                     sum_[c] + k, 1);
+      Values normal[3];
+      finish_sums(first, sum, Block::load(terms_ + k), normal);
+      for (std::size_t c = 0; c < 3; ++c) {
+        Block::store(normal[c], Block::kPoints, sum_[c] + k, 1);
       }
     }
     for (std::size_t k = 0; k < count_; ++k) {
