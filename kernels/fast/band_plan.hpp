@@ -16,7 +16,7 @@ constexpr bool kSweepsBands = (kOutputs == detail::kPosition ||
 /// The most registers of a band. Each number has code of its own, and more would gain less than
 /// theirs costs.
 template <typename V>
-constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
+constexpr std::size_t kMostInBand = kLineWide<V> ? 4 : 8;
 /// The same where planes go one by one; for registers of a line it is kMostInBand.
 constexpr std::size_t kMostPlaneByPlane = 6;
 
@@ -77,7 +77,7 @@ SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& p
   using V = vec<T>;
   const std::size_t registers = plan.registers;
   constexpr std::size_t kL = kLanes<V>;
-  constexpr std::size_t kMost = kMostInBand<V>;
+  constexpr std::size_t kMost = kLineWide<V> ? 6 : 8;
   constexpr bool kPositions = kOutputs == detail::kPosition;
   constexpr bool kFloat = sizeof(T) == sizeof(float);
   const std::size_t nu = task.nu;

@@ -264,9 +264,9 @@ SIMDBEZIER_PART std::size_t sweep_bands(const GridTask<T>& task, const RowPiece<
       }
       sweep_band<kOutputs, PlaneOrder::together, kCount, Last>(task, piece, at, patch, end);
     };
-    with_one_of<2, 3, 4, 5, 6>(count, sweep_count);
+    with_one_of<2, 3, 4>(count, sweep_count);
     if constexpr (!kLineWide<V>) {
-      with_one_of<7, 8>(count, sweep_count);
+      with_one_of<5, 6, 7, 8>(count, sweep_count);
     }
     first += count * kL;
     plan.registers -= count;

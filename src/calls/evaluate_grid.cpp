@@ -139,10 +139,7 @@ public:
     return written_bytes(in_.out, plan_.nu() * plan_.nv() * request_.count);
   }
   [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_call(CallName::grid, in_, request_)
-        .add(plan_.nu())
-        .add(plan_.nv())
-        .add(plan_.is_uniform_square() ? 1 : 0); // PatchKernels::turns_rows()
+    return kind_of_call(CallName::grid, in_, request_).add(plan_.nu()).add(plan_.nv());
   }
 
 private:

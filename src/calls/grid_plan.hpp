@@ -56,8 +56,6 @@ public:
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
   [[nodiscard]] const T* x() const noexcept { return x_; }
   [[nodiscard]] const T* y() const noexcept { return y_; }
-  /// Whether the grid has as many uniform rows as columns, so that its rows are pairs Y and -Y.
-  [[nodiscard]] bool is_uniform_square() const noexcept { return y_ == x_; }
   /// Changes with every build().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
 

@@ -203,14 +203,11 @@ private:
           idle == 0 ? nu >= 16 : 2 * nu >= 3 * lanes && 10 * idle <= 3 * (nu + idle);
       return line && (single || filled);
     }
-    // Two registers are one tile, and of a line each the column behind them. Squares of more than
-    // half a line have code of their own there (kStreamsSquare of kernels/fast/streamed_lines.hpp),
-    // so that positions of 9 to 12 floats are streamed as well.
+    // Two registers are one tile, and of a line each the column behind them.
     const bool position = choice.outputs == kPosition;
-    const bool square = plan.is_uniform_square() && watertight && nu * sizeof(T) > 32 && line;
-    const std::size_t shortest = lanes < 16 ? 40 / sizeof(T) : position ? 13 : 9;
+    const std::size_t shortest = lanes < 16 ? 40 / sizeof(T) : 9;
     const std::size_t widest = line ? 2 * lanes + 1 : 2 * lanes - 1;
-    if (idle != 0 && (nu >= shortest || square) && nu <= widest) {
+    if (idle != 0 && nu >= shortest && nu <= widest) {
       return true;
     }
     const std::size_t least = position ? 2 * lanes + lanes / 2 : 2 * lanes - 1;
