@@ -6,6 +6,8 @@ const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY'
   'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'statusData', 'fileData', 'fileBytes'];
 const MESH_OPTIONS = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
   'flip', 'bits'];
+const SAMPLE_OPTIONS = ['outputs', 'layout', 'watertight', 'copy'];
+const LINES = { least: 1, most: 2 ** 20, whole: true }; // of a grid
 const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
 const VECTORS = OUTPUTS.slice(0, OUTPUTS.indexOf('curvature'));
 const CURVATURES = ['gaussian', 'mean', 'minimum', 'maximum'];
@@ -41,9 +43,11 @@ function expectKnown(options, known) {
   }
 }
 
-/** What the last calls for a set left behind, as it was then. */
+/** What the last calls for a set left behind, as it was then: no typed array, which would be a piece of memory outside
+ * of the garbage collector's, and most of the time of a call on a few samples. */
 class Results {
-  constructor(values) { this.values = values.slice(); }
+  values = [];
+  constructor(values) { for (let k = 0; k < values.length; k++) this.values.push(values[k]); }
 }
 RESULTS.forEach((name, k) => Object.defineProperty(Results.prototype, name, { get() { return this.values[k]; } }));
 
@@ -183,7 +187,8 @@ class PatchSet {
   }
 
   grid(nu, nv = nu, options = {}) {
-    for (const [name, value] of [['nu', nu], ['nv', nv]]) number(name, value, { least: 1, most: 2 ** 20, whole: true });
+    number('nu', nu, LINES);
+    number('nv', nv, LINES);
     return this.#evaluated(options, (...how) => this.#wasm.grid(this.#use(), nu, nv, ...how));
   }
 
@@ -243,13 +248,14 @@ class PatchSet {
     }));
   }
 
-  #evaluated({ outputs = ['position'], layout = 'triples', watertight = true, copy = false, ...rest }, call) {
-    expectKnown(rest, []);
-    const wanted = OUTPUTS.filter((name) => outputs.includes(name));
-    for (const name of outputs) choice('outputs', name, OUTPUTS);
+  #evaluated(options, call) {
+    expectKnown(options, SAMPLE_OPTIONS);
+    const { outputs = ['position'], layout = 'triples', watertight = true, copy = false } = options;
+    let bits = 0;
+    for (const name of outputs) bits |= 1 << choice('outputs', name, OUTPUTS);
+    const wanted = OUTPUTS.filter((name, k) => bits & 1 << k);
     this.#call.samples++;
-    this.#expect(call(wanted.reduce((bits, name) => bits | 1 << OUTPUTS.indexOf(name), 0),
-      choice('layout', layout, LAYOUTS), watertight ? 1 : 0));
+    this.#expect(call(bits, choice('layout', layout, LAYOUTS), watertight ? 1 : 0));
     const samples = new SampleArrays(this.#views('samples'), this.#results(), wanted, layout);
     return copy ? samples.copy() : samples;
   }
