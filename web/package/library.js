@@ -10,6 +10,7 @@ const SAMPLE_OPTIONS = ['outputs', 'layout', 'watertight', 'copy'];
 const LINES = { least: 1, most: 2 ** 20, whole: true }; // of a grid
 const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
 const VECTORS = OUTPUTS.slice(0, OUTPUTS.indexOf('curvature'));
+const WISHES = []; // by bits: names of outputs, and those of them that are vectors
 const CURVATURES = ['gaussian', 'mean', 'minimum', 'maximum'];
 const ARRAYS = [...VECTORS, 'records', ...CURVATURES, 'status'];
 const WEIGHTS = ['none', 'cartesian', 'homogeneous'];
@@ -38,18 +39,32 @@ function number(name, value, { least = 0, most = Infinity, whole = false } = {})
 }
 
 function expectKnown(options, known) {
-  for (const name of Object.keys(options)) {
+  for (const name in options) {
     if (!known.includes(name)) fail(`expected options among ${known.join(', ')}, found ${name}`);
   }
 }
 
-/** What the last calls for a set left behind, as it was then: no typed array, which would be a piece of memory outside
- * of the garbage collector's, and most of the time of a call on a few samples. */
+/** What the last calls for a set left behind, as it was then. */
 class Results {
-  values = [];
-  constructor(values) { for (let k = 0; k < values.length; k++) this.values.push(values[k]); }
+  constructor(values) { this.values = values.slice(); }
 }
 RESULTS.forEach((name, k) => Object.defineProperty(Results.prototype, name, { get() { return this.values[k]; } }));
+
+/** What the last grid or samples left behind. Copies of all results would take most of the time of a small call. */
+const [SAMPLES, SAMPLE_DATA, STATUS_DATA] = ['samples', 'sampleData', 'statusData'].map((name) => RESULTS.indexOf(name));
+class SampleResults {
+  constructor(values) {
+    this.samples = values[SAMPLES];
+    this.sampleData = values[SAMPLE_DATA];
+    this.statusData = values[STATUS_DATA];
+  }
+}
+
+function wishOf(bits) {
+  return WISHES[bits] ??= {
+    outputs: OUTPUTS.filter((name, k) => bits & 1 << k), vectors: VECTORS.filter((name, k) => bits & 1 << k),
+  };
+}
 
 /** Compiles and starts an instance. source: bytes, a WebAssembly.Module, or a Response, or a promise of one. */
 export async function instantiate(source) {
@@ -150,14 +165,14 @@ const forgotten = typeof FinalizationRegistry === 'undefined' ? undefined
   : new FinalizationRegistry(({ wasm, handle }) => wasm.free_model(handle));
 
 class PatchSet {
-  #wasm; #handle; #doubles; #about; #call = { mesh: 0, samples: 0 };
+  #wasm; #handle; #doubles; #about; #values = []; #call = { mesh: 0, samples: 0 };
 
   constructor(wasm, handle, doubles) {
     this.#wasm = wasm;
     this.#handle = handle;
     this.#doubles = doubles;
     forgotten?.register(this, { wasm, handle }, this);
-    this.#about = this.#results();
+    this.#about = new Results(this.#results());
   }
 
   get size() { return this.#about.patches; }
@@ -175,21 +190,22 @@ class PatchSet {
   tessellate({ copy = false, ...options } = {}) {
     this.#call.mesh++;
     this.#wish(options, (at) => this.#wasm.tessellate(this.#use(), at));
-    const mesh = new Mesh(this.#views('mesh'), this.#results());
+    const mesh = new Mesh(this.#views('mesh'), new Results(this.#results()));
     return copy ? mesh.copy() : mesh;
   }
 
   file(format, options = {}) {
     const number = choice('format', format, FORMATS);
     this.#wish(options, (at) => this.#wasm.write_file(this.#use(), number, at));
-    const { fileData, fileBytes } = this.#results();
+    const { fileData, fileBytes } = new Results(this.#results());
     return new Uint8Array(this.#wasm.memory.buffer, fileData, fileBytes).slice();
   }
 
   grid(nu, nv = nu, options = {}) {
     number('nu', nu, LINES);
     number('nv', nv, LINES);
-    return this.#evaluated(options, (...how) => this.#wasm.grid(this.#use(), nu, nv, ...how));
+    return this.#evaluated(options, (bits, layout, watertight) =>
+      this.#wasm.grid(this.#use(), nu, nv, bits, layout, watertight));
   }
 
   samples(patches, u, v, options = {}) {
@@ -219,8 +235,12 @@ class PatchSet {
     if (this.#handle === 0) fail('the set has been freed');
     return this.#handle;
   }
+  /** Returns the results in the instance's memory, which detaches them when it grows. */
   #results() {
-    return new Results(new Float64Array(this.#wasm.memory.buffer, this.#wasm.results(this.#use()) >>> 0, RESULTS.length));
+    if (this.#values.length === 0) {
+      this.#values = new Float64Array(this.#wasm.memory.buffer, this.#wasm.results(this.#use()) >>> 0, RESULTS.length);
+    }
+    return this.#values;
   }
   #expect(done) {
     if (!done) throw new Error(message(this.#wasm));
@@ -253,10 +273,9 @@ class PatchSet {
     const { outputs = ['position'], layout = 'triples', watertight = true, copy = false } = options;
     let bits = 0;
     for (const name of outputs) bits |= 1 << choice('outputs', name, OUTPUTS);
-    const wanted = OUTPUTS.filter((name, k) => bits & 1 << k);
     this.#call.samples++;
     this.#expect(call(bits, choice('layout', layout, LAYOUTS), watertight ? 1 : 0));
-    const samples = new SampleArrays(this.#views('samples'), this.#results(), wanted, layout);
+    const samples = new SampleArrays(this.#views('samples'), new SampleResults(this.#results()), wishOf(bits), layout);
     return copy ? samples.copy() : samples;
   }
 
@@ -294,11 +313,11 @@ class Mesh {
 
 class SampleArrays {
   #view; #about; #wanted; #vectors; #records;
-  constructor(view, about, wanted, layout) {
+  constructor(view, about, { outputs, vectors }, layout) {
     this.#view = view;
     this.#about = about;
-    this.#wanted = wanted;
-    this.#vectors = wanted.filter((name) => VECTORS.includes(name));
+    this.#wanted = outputs;
+    this.#vectors = vectors;
     this.#records = layout === 'interleaved';
   }
   get count() { return this.#about.samples; }
