@@ -177,7 +177,7 @@ test('views are guarded', async () => {
   const kept = mesh.vertices;
   const first = kept[0];
   const pages = own.memoryBytes;
-  set.grid(300, 300);
+  assert.equal(set.grid(300, 300).count, 300 * 300 * set.size);
   assert.ok(own.memoryBytes > pages);
   assert.equal(kept.length, 0); // the memory has grown
   assert.equal(mesh.vertices[0], first);
