@@ -20,6 +20,7 @@ void SplineCutter<S>::begin(const PreparedSpline<S>& spline) noexcept {
   lines_ = mean_of_lines_ + spline.line_room();
   std::fill_n(row_ + spline.row_values(), kMeanSlack, 0.0); // is read, to no effect
   std::fill_n(held_, kMostOrder, kNoRow);
+  mean_ = nullptr;
 }
 
 template <typename S>
@@ -125,12 +126,15 @@ void SplineCutter<S>::cut(std::size_t row, const NetView<S>& out) noexcept {
   const std::size_t span = row - spline_->first_row;
   for (std::size_t j = 0; j < v.order(); ++j) {
     const SplineMean& mean = v.mean(span, j);
-    const double* lines[kMostOrder];
-    for (std::size_t k = 0; k < mean.terms; ++k) {
-      lines[k] = line(mean.first + k);
+    if (mean_ == nullptr || !mean.is_same(*mean_)) { // else spans join
+      const double* lines[kMostOrder];
+      for (std::size_t k = 0; k < mean.terms; ++k) {
+        lines[k] = line(mean.first + k);
+      }
+      means_.lines({lines, v.factors() + mean.factor, mean.terms, mean.divisor, mean_of_lines_,
+                    spline_->line_values()});
+      mean_ = &mean;
     }
-    means_.lines({lines, v.factors() + mean.factor, mean.terms, mean.divisor, mean_of_lines_,
-                  spline_->line_values()});
     store(mean_of_lines_, j, out);
   }
   const bool exact_points = out.weights == Weights::cartesian; // ends are copies of Cartesian ones

@@ -38,6 +38,7 @@ private:
   const PreparedSpline<S>* spline_ = nullptr;
   double* row_ = nullptr; ///< a row of the spline's points in double
   double* mean_of_lines_ = nullptr;
+  const SplineMean* mean_ = nullptr;  ///< what that is
   double* lines_ = nullptr;           ///< order_v of them
   std::size_t held_[kMostOrder] = {}; ///< the row of each line
 };
