@@ -23,6 +23,7 @@ public:
         value_[term] = u.value(k) + v.value(l) + 1;
         du_[term] = u.slope(k) + v.value(l) + 1;
         dv_[term] = u.value(k) + v.slope(l) + 1;
+        weight_[term] = value_[term] * scale_[term];
       }
     }
   }
@@ -32,7 +33,7 @@ public:
   template <typename T>
   void weigh(const T* c, std::size_t count, double* to) const {
     for (std::size_t term = 0; term < count; ++term) {
-      to[term] = value_[term] * (std::fabs(static_cast<double>(c[term])) * scale_[term]);
+      to[term] = weight_[term] * std::fabs(static_cast<double>(c[term]));
     }
   }
 
@@ -45,6 +46,7 @@ private:
   double value_[kMostOrder * kMostOrder]; ///< roundings of a term, and one of its coefficient
   double du_[kMostOrder * kMostOrder];
   double dv_[kMostOrder * kMostOrder];
+  double weight_[kMostOrder * kMostOrder]; ///< scale_ * value_, which is exact
 };
 
 /// Sums over the terms of a polynomial at |X| = |Y| = 1/2, where they are largest.

@@ -40,7 +40,7 @@ Status find_errors(const Set& set, std::size_t components, std::span<double> out
   if (const Status status = resolve_isa(options.isa, chosen); !status) {
     return status;
   }
-  constexpr std::size_t kBlock = 32;
+  constexpr std::size_t kBlock = 256;
   const std::size_t blocks = (set.size() + kBlock - 1) / kBlock;
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     PositionBound bounds[kBlock];
