@@ -19,7 +19,4 @@ Status build_layout(const Topology& topology, const PatchRates& rates, MeshData&
 Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh,
                        int threads = 1);
 
-/// Adds to a complete layout what evaluation has to know beforehand.
-void measure_boundaries(MeshData& mesh, int threads = 1);
-
 } // namespace simdbezier::detail

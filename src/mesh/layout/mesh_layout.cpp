@@ -2,7 +2,6 @@
 #include <simdbezier/mesh_layout.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <new>
 
@@ -10,7 +9,6 @@
 #include "src/mesh/layout/layout_builder.hpp"
 #include "src/mesh/layout/segment_counts.hpp"
 #include "src/mesh/layout/vertex_numbers.hpp"
-#include "src/runtime/batch.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -48,17 +46,6 @@ void count_entangled(const TopologyData& topology, MeshData& mesh) {
   }
 }
 
-std::size_t boundary_samples(const TopologyData& topology, const MeshData& mesh,
-                             std::size_t patch) {
-  std::size_t samples = 0;
-  topology.for_owned(
-      patch, [&](std::uint32_t lowest) { topology.for_joined(lowest, [&](auto) { ++samples; }); },
-      [&](std::uint32_t edge) {
-        samples += topology.sides_of(edge).size() * (mesh.segments[edge] - 1);
-      });
-  return samples;
-}
-
 } // namespace
 
 Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh, int threads) {
@@ -76,39 +63,6 @@ Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& m
   return Status::ok;
 }
 
-void measure_boundaries(MeshData& mesh, int threads) {
-  const TopologyData& topology = *mesh.topology.data();
-  std::atomic<std::size_t> most_vertices = 0;
-  std::atomic<std::size_t> most_samples = 0;
-  std::atomic<std::size_t> most_sides = 1;
-  auto of_patches = [&](int, std::size_t begin, std::size_t end) {
-    std::size_t vertices = 0;
-    std::size_t samples = 0;
-    for (std::size_t patch = begin; patch < end; ++patch) {
-      vertices = std::max<std::size_t>(vertices, mesh.inner[patch] - mesh.first_vertex(patch));
-      samples = std::max(samples, boundary_samples(topology, mesh, patch));
-    }
-    raise(most_vertices, vertices);
-    raise(most_samples, samples);
-  };
-  divide_work(mesh.patches(), 15, threads, of_patches);
-  auto of_edges = [&](int, std::size_t begin, std::size_t end) {
-    std::size_t sides = 1;
-    for (std::size_t edge = begin; edge < end; ++edge) {
-      sides = std::max(sides, topology.sides_of(edge).size());
-    }
-    raise(most_sides, sides);
-  };
-  divide_work(topology.edges(), 1, threads, of_edges);
-  const auto [least, most] = std::minmax_element(mesh.nu.begin(), mesh.nu.end());
-  mesh.least_nu = *least;
-  mesh.most_nu = *most;
-  mesh.most_nv = *std::max_element(mesh.nv.begin(), mesh.nv.end());
-  mesh.most_boundary_vertices = most_vertices;
-  mesh.most_boundary_samples = most_samples;
-  mesh.most_sides = most_sides;
-}
-
 bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept {
   return rates.size() == topology.counts().patches &&
          std::all_of(rates.begin(), rates.end(),
@@ -123,6 +77,10 @@ Status build_layout(const Topology& topology, const PatchRates& rates, MeshData&
   mesh.nv.assign(rates.cells_v.begin(), rates.cells_v.end());
   mesh.diagonals.assign(rates.diagonals.begin(), rates.diagonals.end());
   mesh.diagonals.resize(data.patches());
+  const auto [least, most] = std::minmax_element(mesh.nu.begin(), mesh.nu.end());
+  mesh.least_nu = *least;
+  mesh.most_nu = *most;
+  mesh.most_nv = *std::max_element(mesh.nv.begin(), mesh.nv.end());
   SegmentCounts(data, mesh, threads).run();
   return number_vertices(data.corners, mesh, threads);
 }
@@ -143,7 +101,6 @@ Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayou
   auto mesh = std::make_shared<detail::MeshData>();
   const Status status = detail::build_layout(topology, rates, *mesh, options.threads);
   if (status == Status::ok) {
-    detail::measure_boundaries(*mesh, options.threads);
     layout = MeshLayout(std::move(mesh));
   }
   return status;

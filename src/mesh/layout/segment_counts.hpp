@@ -27,11 +27,12 @@ public:
     for (const Share& share : found_) {
       all.most = std::max(all.most, share.most);
       all.unions |= share.unions;
-      all.crowds |= share.crowds;
+      all.sides = std::max(all.sides, share.sides);
     }
-    if (all.crowds) {
+    if (all.sides > 2) {
       count_crowds(all);
     }
+    mesh_.most_sides = all.sides;
     mesh_.most_segments = all.most;
     mesh_.has_unions = all.unions;
   }
@@ -43,16 +44,15 @@ private:
   struct Share {
     std::uint32_t most = 0; ///< segments
     bool unions = false;    ///< whether an edge has points that one of its sides has not
-    bool crowds = false;    ///< whether an edge has more sides than two
+    std::size_t sides = 1;  ///< of the edge that has the most
   };
 
   void count(std::size_t share) {
     Share found;
     for (std::size_t edge = shares_.begin(share); edge < shares_.end(share); ++edge) {
       const auto sides = topology_.sides_of(edge);
-      if (sides.size() > 2) {
-        found.crowds = true;
-      } else {
+      found.sides = std::max(found.sides, sides.size());
+      if (sides.size() <= 2) {
         put(edge, segments_of(mesh_.rate(sides.front()), mesh_.rate(sides.back())), found);
       }
     }

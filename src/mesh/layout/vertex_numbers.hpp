@@ -52,6 +52,14 @@ public:
     }
     mesh_.triangles[0] = 0;
     shares_.run([this](std::size_t share) { number(share); });
+    mesh_.most_boundary_vertices = 0;
+    mesh_.most_boundary_samples = 0;
+    for (const Share& share : found_) {
+      mesh_.most_boundary_vertices =
+          std::max(mesh_.most_boundary_vertices, share.most_boundary_vertices);
+      mesh_.most_boundary_samples =
+          std::max(mesh_.most_boundary_samples, share.most_boundary_samples);
+    }
     if (shares_.count() > 1) {
       std::uint64_t triangles = 0;
       for (Share& share : found_) {
@@ -71,6 +79,8 @@ private:
     std::uint64_t end_vertex = 0;
     std::uint64_t triangles = 0;
     std::uint64_t first_triangle = 0;
+    std::size_t most_boundary_vertices = 0; ///< as in MeshData
+    std::size_t most_boundary_samples = 0;
   };
 
   /// Without regard to groups, which several shares have no part in.
@@ -94,26 +104,37 @@ private:
   void number(std::size_t share) {
     std::uint64_t vertices = found_[share].first_vertex;
     std::uint64_t triangles = 0;
+    std::size_t most_vertices = 0;
+    std::size_t most_samples = 0;
     for (std::size_t patch = shares_.begin(share); patch < shares_.end(share); ++patch) {
+      const std::uint64_t first = vertices;
+      std::size_t samples = 0;
       for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
         if (topology_.corners[k] == k) {
           topology_.for_joined(k, [&](std::size_t corner) {
             const std::uint32_t lowest = corner_groups_[corner];
             mesh_.corners[corner] =
                 lowest == corner ? static_cast<std::uint32_t>(vertices++) : mesh_.corners[lowest];
+            ++samples;
           });
         }
       }
       for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
         if (topology_.owns_edge(side)) {
-          vertices = number_edge(topology_.sides[side].edge(), vertices);
+          const std::uint32_t edge = topology_.sides[side].edge();
+          vertices = number_edge(edge, vertices);
+          samples += topology_.sides_of(edge).size() * (mesh_.segments[edge] - 1);
         }
       }
+      most_vertices = std::max<std::size_t>(most_vertices, vertices - first);
+      most_samples = std::max(most_samples, samples);
       mesh_.inner[patch] = static_cast<std::uint32_t>(vertices);
       vertices += mesh_.inner_points(patch);
       triangles += triangles_of(topology_, mesh_, patch);
       mesh_.triangles[patch + 1] = triangles;
     }
+    found_[share].most_boundary_vertices = most_vertices;
+    found_[share].most_boundary_samples = most_samples;
     found_[share].end_vertex = vertices;
     found_[share].triangles = triangles;
   }

@@ -91,7 +91,6 @@ Status number_groups(CreaseGroups& groups, const MeshData& whole, const MeshLayo
   mesh->side_vertices = std::move(groups.side_groups);
   const Status numbered = number_vertices(groups.corners, *mesh);
   if (numbered) {
-    measure_boundaries(*mesh);
     split = MeshLayout(std::move(mesh));
   }
   return numbered;
