@@ -1,5 +1,5 @@
-// Positions and normals of rows whose length is a multiple of 512 bytes, or on AVX2 of 256: eight
-// registers of a row side by side, and then the next row, if a tile's lines would leave the cache.
+// Positions and normals of rows that are a multiple of eight registers long: eight registers of a
+// row side by side, and then the next row, if a tile's lines would leave the cache.
 //
 // Lines of such rows share few sets of a first-level cache. Tile by tile, rows would have to go in
 // strips (src/choice/row_strips.hpp), too short for pairs of mirrored rows. Other rows gain
@@ -14,7 +14,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Whether there are bands with normals.
 template <detail::OutputSet kOutputs, typename T>
-constexpr bool kSweepsNormalBands = (kOutputs == detail::kPositionNormal) && kMakesLines<vec<T>>;
+constexpr bool kSweepsNormalBands = (kOutputs == detail::kPositionNormal) && !kIsScalar<vec<T>>;
 
 /// The tiles of a band, of one patch.
 template <typename T>

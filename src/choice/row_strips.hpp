@@ -39,8 +39,10 @@ template <typename T>
   // What is staged, or goes to memory in whole lines, has other limits. What kernels sweep in bands
   // (kernels/fast/row_bands.hpp) comes to each line once, and has room until each row is a page.
   const bool in_bands =
-      register_bytes >= 32 && task.origins == nullptr && distance < 4096 &&
-      (outputs == kPosition || outputs == kPositionDerivatives || outputs == kPositionNormal);
+      task.origins == nullptr && distance < 4096 &&
+      (outputs == kPositionNormal
+           ? register_bytes >= 16
+           : register_bytes >= 32 && (outputs == kPosition || outputs == kPositionDerivatives));
   const bool leaves = task.drain != nullptr || (line_wide && task.plain_to_memory);
   if (distance < 512 || task.streaming || task.record > 1 || leaves || in_bands) {
     return kAll;

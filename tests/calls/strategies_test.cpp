@@ -181,7 +181,7 @@ std::string strategies_of(Isa isa) {
   case Isa::scalar:
     return "strips";
   default:
-    return "components strips";
+    return "bands components strips";
   }
 }
 
