@@ -17,35 +17,73 @@ constexpr std::size_t kMostMiddleRows = 128;
 /// one address serves all of them.
 template <typename T>
 class RowPowers {
+  using Register = vec<T>;
+
 public:
+  /// Values from one row to the next. SSE2 has no instruction that brings a value from memory to
+  /// all lanes, so that each one is there for every lane.
+  static constexpr std::size_t kStep = kSse2 ? kLanes<Register> : 1;
+
   /// y is readable as far as RowRun::y.
   SIMDBEZIER_PART const T* fill(const T* y, std::size_t rows) {
-    using V = vec<T>;
-    for (std::size_t k = 0; k < rows; k += kLanes<V>) {
-      const RowPoint<V> at(load_vector<V>(y + k));
-      store_vector(values_ + k, at.y);
-      store_vector(values_ + kPlane + k, at.square);
-      store_vector(values_ + 2 * kPlane + k, at.twice);
-      store_vector(values_ + 3 * kPlane + k, at.twice_square);
+    constexpr std::size_t kAtOnce = kLanes<Register> / kStep;
+    // Registers of several rows read beyond the last one.
+    for (std::size_t k = 0; k < rows + kStep - 1; k += kAtOnce) {
+      const RowPoint<Register> at(RowGroups<kAtOnce, Register>::spread(y + k));
+      T* const to = values_ + k * kStep;
+      store_vector(to, at.y);
+      store_vector(to + kPlane, at.square);
+      store_vector(to + 2 * kPlane, at.twice);
+      store_vector(to + 3 * kPlane, at.twice_square);
     }
     return values_;
   }
 
-  /// Returns the points of a register of kRows rows, the first of which has its parameter at y.
-  /// With several rows, powers are computed anew, since stored ones would have to be spread over
-  /// the lanes.
+  /// Returns the parameters of a register of kRows rows, the first of which has its own at y.
+  template <std::size_t kRows, typename V>
+  static SIMDBEZIER_PART V parameters(const T* y) {
+    if constexpr (kRows == 1) {
+      return of_row<V>(y);
+    } else if constexpr (kStep == 1) {
+      return RowGroups<kRows, V>::spread(y);
+    } else {
+      constexpr std::size_t kColumns = kLanes<V> / kRows;
+      return from_lanes<V>([y](std::size_t i)
+                               SIMDBEZIER_INLINE_LAMBDA { return y[i / kColumns * kStep]; });
+    }
+  }
+
+  /// Returns the points of such a register. With several rows, powers are computed anew, since
+  /// stored ones would have to be spread over the lanes.
   template <std::size_t kRows, typename V>
   static SIMDBEZIER_PART RowPoint<V> point(const T* y) {
     if constexpr (kRows > 1) {
-      return RowPoint<V>(RowGroups<kRows, V>::spread(y));
+      return RowPoint<V>(parameters<kRows, V>(y));
     } else {
-      return {broadcast<V>(y[0]), broadcast<V>(y[kPlane]), broadcast<V>(y[2 * kPlane]),
-              broadcast<V>(y[3 * kPlane])};
+      return {of_row<V>(y), of_row<V>(y + kPlane), of_row<V>(y + 2 * kPlane),
+              of_row<V>(y + 3 * kPlane)};
     }
   }
 
 private:
-  static constexpr std::size_t kPlane = kMostMiddleRows + detail::kMaxLanes;
+  static constexpr std::size_t kPlane = (kMostMiddleRows + detail::kMaxLanes) * kStep;
+
+  /// Returns a row's value in all lanes.
+  template <typename V>
+  static SIMDBEZIER_INLINE V of_row(const T* value) {
+    if constexpr (kStep == 1) {
+      return broadcast<V>(*value);
+    } else { // only what is aligned may be an operand of SSE2's instructions
+      const void* const aligned = __builtin_assume_aligned(value, sizeof(Register));
+      const auto all = load_vector<Register>(static_cast<const T*>(aligned));
+      if constexpr (kLanes<V> == kStep) {
+        return all;
+      } else {
+        return {all, all};
+      }
+    }
+  }
+
   alignas(64) T values_[4 * kPlane];
 };
 
@@ -185,24 +223,24 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
   const RowPlace trail = place.behind(left, nu);
   const auto step = [&](std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
     place = place.behind(rows, nu);
-    y += rows;
+    y += rows * RowPowers<T>::kStep;
   };
-  if constexpr (kRowOrder.pairs != RowPairs::never) {
-    if (piece.mirrored && (kRowOrder.pairs == RowPairs::always || !piece.by_lines)) {
-      RowPlace mirrored{trail.at - nu, trail.row - 1};
-      for (; left >= 2 * kRows; left -= 2 * kRows) {
-        pair(y, place, mirrored);
-        step(kRows);
-        mirrored.at -= kRows * nu;
-        mirrored.row -= kRows;
-      }
-    }
-  }
+  constexpr bool kPairs = kRowOrder.pairs != RowPairs::never;
   constexpr std::size_t kTogether = kRowOrder.together;
-  if constexpr (kTogether > 1) {
+  if (kPairs && piece.mirrored && (kRowOrder.pairs == RowPairs::always || !piece.by_lines)) {
+    RowPlace mirrored{trail.at - nu, trail.row - 1};
+    for (; left >= 2 * kRows; left -= 2 * kRows) {
+      if constexpr (kPairs) {
+        pair(y, place, mirrored);
+      }
+      step(kRows);
+      mirrored.at -= kRows * nu;
+      mirrored.row -= kRows;
+    }
+  } else if constexpr (kTogether > 1) {
     for (; left >= kTogether * kRows; left -= kTogether * kRows) {
       repeat<kTogether>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-        interior(y + k * kRows, place.behind(k * kRows, nu), kRows);
+        interior(y + k * kRows * RowPowers<T>::kStep, place.behind(k * kRows, nu), kRows);
       });
       step(kTogether * kRows);
     }

@@ -17,6 +17,8 @@ template <typename T, std::size_t kPlanes>
 SIMDBEZIER_PART bool lines_stay(const GridTask<T>& task, const T* const (&planes)[kPlanes],
                                 std::size_t rows) {
   constexpr std::size_t kSetBytes = 64 * 64;
+  // Registers of a fourth of a line come to each line so often that half of them are too many.
+  constexpr std::size_t kLines = kLanes<vec<T>> * sizeof(T) < 32 ? 4 : 8;
   const std::size_t row = task.nu * sizeof(T);
   const std::size_t distance = row & (~row + 1); // the largest power of two in it
   const auto place = [&](const T* plane) SIMDBEZIER_INLINE_LAMBDA {
@@ -30,7 +32,7 @@ SIMDBEZIER_PART bool lines_stay(const GridTask<T>& task, const T* const (&planes
     }
     most = together > most ? together : most;
   }
-  return most * rows * distance <= 8 * kSetBytes;
+  return most * rows * distance <= kLines * kSetBytes;
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

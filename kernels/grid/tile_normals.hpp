@@ -155,7 +155,7 @@ private:
     }
     if (!all_of<V>(squared > floor)) [[unlikely]] {
       const std::size_t row_step = kMirrored ? std::size_t{0} - task.nu : task.nu;
-      const V row_y = RowGroups<kRows, V>::spread(y);
+      const V row_y = RowPowers<T>::template parameters<kRows, V>(y);
       doubts.add(
           UncertainNormals{0, tile.kColumns, tile.active, rows, place.at, row_step, status_step},
           tile.column.x, kMirrored ? -row_y : row_y, squared, floor);

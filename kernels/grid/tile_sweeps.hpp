@@ -44,14 +44,15 @@ struct TileSweeper {
   }
 };
 
-/// Whether a single last column goes along with the register before it. WebAssembly has it in a
-/// register that overlaps, but for derivatives: that is 2 KB less to load, and as fast.
-template <detail::OutputSet kOutputs>
+/// Whether a single last column goes along with the register before it. SSE2's registers are so
+/// short that one which overlaps is as fast or faster, and 70 KB less code; WebAssembly has it for
+/// derivatives.
+template <detail::OutputSet kOutputs, typename V>
 constexpr bool kSingleColumns =
 #if defined(SIMDBEZIER_KERNELS_SIMD128)
     kOutputs == detail::kPositionDerivatives;
 #else
-    kUsual<kOutputs>;
+    kSse2 ? kOutputs == detail::kPositionNormal&& kLanes<V> > 2 : kUsual<kOutputs>;
 #endif
 
 /// Whether the last `rest` columns of `first` and more take a register of their own that begins
@@ -60,7 +61,7 @@ constexpr bool kSingleColumns =
 /// Normals are so much arithmetic that two rows in one register are better where they fit.
 template <detail::OutputSet kOutputs, typename V>
 SIMDBEZIER_PART bool overlaps(std::size_t first, std::size_t rest) {
-  constexpr std::size_t kShort = !kSingleColumns<kOutputs>             ? 0
+  constexpr std::size_t kShort = !kSingleColumns<kOutputs, V>          ? 0
                                  : kOutputs == detail::kPositionNormal ? kLanes<V> / 2
                                                                        : 1;
   return !kLineWide<V> && first > 0 && rest > kShort;
@@ -126,7 +127,7 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const RowPiece<T>& pie
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
-  const ColumnSplit<V> split(task.nu, kSingleColumns<kOutputs>);
+  const ColumnSplit<V> split(task.nu, kSingleColumns<kOutputs, V>);
   // A single column goes along with the last whole register.
   const std::size_t plain = split.single ? split.full - kL : split.full;
   std::size_t first = 0;
