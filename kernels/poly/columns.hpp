@@ -48,13 +48,8 @@ SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
 /// and the cubics turned. SSE2 needs two instructions to bring a coefficient to all lanes, and six
 /// for each power of a column on an edge; turning takes two a power, and such a column is another
 /// register. In WebAssembly, positions gain by it, which are pairs of registers, and nothing else.
-#if defined(SIMDBEZIER_KERNELS_SIMD128)
 template <typename V>
-constexpr bool kTurnsColumns = kLanes<V> > kLanes<vec<ScalarOf<V>>>;
-#else
-template <typename V>
-constexpr bool kTurnsColumns = kSse2 && !kIsScalar<V>;
-#endif
+constexpr bool kTurnsColumns = kSse2&& kLanes<V> > (kSimd128 ? kLanes<vec<ScalarOf<V>>> : 1);
 
 struct NoTurnedColumns {
   template <typename V>
@@ -163,6 +158,10 @@ private:
   /// Returns an edge's coefficients of kL powers, which lie in memory power by power.
   template <detail::Edge kEdge>
   static SIMDBEZIER_INLINE Register edge_powers(const T* edges) {
+    if constexpr (kSimd128) { // whose loads of single lanes are fewer instructions
+      return from_lanes<Register>(
+          [=](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { return edges[i * kEdges + kEdge]; });
+    }
     Register of[kL];
     for (std::size_t i = 0; i < kL; ++i) {
       of[i] = load_vector<Register>(edges + i * kEdges + (kEdges - kL));

@@ -120,6 +120,36 @@ private:
   MaskOf<vec<float>> lanes_;
   __m256i index_; ///< which of the pair each lane takes
 };
+#elif defined(SIMDBEZIER_KERNELS_SIMD128)
+// Likewise: one load, and a swizzle that leaves zeros in the other lanes. V8 makes three
+// instructions of a selection by a mask, and two of most loads into all lanes.
+template <typename T>
+class PairSelector<xsimd::batch<T, SIMDBEZIER_ARCH>> {
+  using V = vec<T>;
+
+public:
+  SIMDBEZIER_INLINE PairSelector(MaskOf<V> first, MaskOf<V> second)
+      : bytes_(wasm_v128_or(wasm_v128_not(__builtin_bit_cast(v128_t, first | second)),
+                            in_pair(__builtin_bit_cast(v128_t, second)))),
+        kept_(wasm_i8x16_shr(bytes_, 7)) {} // clang would select by a comparison
+  SIMDBEZIER_INLINE bool worthwhile() const { return !wasm_i8x16_all_true(kept_); }
+  SIMDBEZIER_INLINE V replace(V inside, const T* pair) const {
+    const v128_t both = sizeof(T) == 4 ? wasm_v128_load64_splat(pair) : wasm_v128_load(pair);
+    const v128_t others = wasm_v128_and(__builtin_bit_cast(v128_t, inside), kept_);
+    return __builtin_bit_cast(V, wasm_v128_or(others, wasm_i8x16_swizzle(both, bytes_)));
+  }
+
+private:
+  /// Returns which bytes of the pair each lane takes.
+  static SIMDBEZIER_INLINE v128_t in_pair(v128_t second) {
+    const v128_t first =
+        sizeof(T) == 4 ? wasm_u32x4_splat(0x03020100) : wasm_u64x2_splat(0x0706050403020100);
+    return wasm_i8x16_add(first, wasm_v128_and(second, wasm_i8x16_splat(sizeof(T))));
+  }
+
+  v128_t bytes_; ///< where lanes come from, or negative
+  v128_t kept_;
+};
 #endif
 
 /// What replaces the ends of curves.
@@ -140,18 +170,17 @@ SIMDBEZIER_INLINE unsigned lane_bits(MaskOf<vec<double>> mask) {
   return static_cast<unsigned>(_mm_movemask_pd(mask));
 }
 
-SIMDBEZIER_INLINE vec<float> with_first_lane(vec<float> v, const float* value) {
-  return vec<float>(_mm_move_ss(v, _mm_load_ss(value)));
+template <typename V>
+SIMDBEZIER_INLINE V with_first_lane(V v, const ScalarOf<V>* value) {
+  Bits<V> bits = __builtin_bit_cast(Bits<V>, v);
+  bits[0] = *value;
+  return __builtin_bit_cast(V, bits);
 }
-SIMDBEZIER_INLINE vec<double> with_first_lane(vec<double> v, const double* value) {
-  return vec<double>(_mm_loadl_pd(v, value));
-}
-SIMDBEZIER_INLINE vec<float> with_last_lane(vec<float> v, const float* value) {
-  const __m128 last = _mm_shuffle_ps(v, _mm_load_ss(value), _MM_SHUFFLE(0, 0, 2, 2));
-  return vec<float>(_mm_shuffle_ps(v, last, _MM_SHUFFLE(2, 0, 1, 0)));
-}
-SIMDBEZIER_INLINE vec<double> with_last_lane(vec<double> v, const double* value) {
-  return vec<double>(_mm_loadh_pd(v, value));
+template <typename V>
+SIMDBEZIER_INLINE V with_last_lane(V v, const ScalarOf<V>* value) {
+  Bits<V> bits = __builtin_bit_cast(Bits<V>, v);
+  bits[kLanes<V> - 1] = *value;
+  return __builtin_bit_cast(V, bits);
 }
 #endif
 

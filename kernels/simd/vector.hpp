@@ -21,6 +21,8 @@
 #endif
 #if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__wasm__)
+#include <wasm_simd128.h>
 #endif
 
 #define SIMDBEZIER_PASTE_(a, b) a##b
@@ -66,6 +68,13 @@ inline constexpr bool kCompactShapes = SIMDBEZIER_COMPACT != 0;
 inline constexpr bool kSse2 = true;
 #else
 inline constexpr bool kSse2 = false;
+#endif
+/// Whether these are WebAssembly's, which V8 compiles: it has fewer registers left than SSE2, and
+/// takes two or three instructions for some that are one.
+#if defined(SIMDBEZIER_KERNELS_SIMD128)
+inline constexpr bool kSimd128 = true;
+#else
+inline constexpr bool kSimd128 = false;
 #endif
 
 // Which V holds what -----------------------------------------------------------------------------
