@@ -143,10 +143,11 @@ SIMDBEZIER_KERNEL void drain_owed(DrainQueue<T>& queue) {
 
 /// Kernels call this after every few rows: `values` of T have been written since the last call. It
 /// passes about as many on, so that memory and arithmetic overlap, but not one line at a time,
-/// since every call costs as much as several.
+/// since every call costs as much as several. In WebAssembly, where nothing goes past the caches,
+/// all is passed on at the end.
 template <typename T>
 SIMDBEZIER_INLINE void drain_some(DrainQueue<T>* drain, std::size_t values) {
-  if (drain != nullptr) [[unlikely]] {
+  if (!kSimd128 && drain != nullptr) [[unlikely]] {
     drain->owed += values;
     if (drain->owed >= detail::kDrainBurst<T>) {
       drain_owed(*drain);

@@ -26,6 +26,13 @@ SIMDBEZIER_PART void assume(GridTask<T>& task) {
     task.watertight = kKnown == Known::watertight;
   }
 }
+/// The same for a task that is no copy.
+template <Known kKnown, typename T>
+SIMDBEZIER_PART void assume(const GridTask<T>& task) {
+  if (kKnown != Known::nothing && task.origins != nullptr) {
+    __builtin_unreachable();
+  }
+}
 template <Known kKnown, typename T>
 SIMDBEZIER_PART bool is_watertight(const GridTask<T>& task) {
   return kKnown == Known::watertight || (kKnown != Known::open && task.watertight);
@@ -128,7 +135,7 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
     const std::size_t at = patch * task.patch_step + piece.first * nu + tile.first;
     Component<T> component(task, patch, 0);
     for_components<kOwnStores<Piece>>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-      T* const position = task.out[output_index(Output::position)].component[c] + at;
+      T* const position = own_plane(task.out[output_index(Output::position)].component[c] + at);
       if constexpr (Piece::kAcross && SomeTile::kBuffered) {
         SquareColumn<V, Piece::rows(), kPlanes> behind;
         if constexpr (kOutputs == detail::kPosition) {
@@ -146,8 +153,9 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
         }
         sweep_position(piece, component, tile, nu, position, extra);
       } else if constexpr (kOutputs == detail::kPositionDerivatives) {
-        const JetPlanes<T> to{position, task.out[output_index(Output::du)].component[c] + at,
-                              task.out[output_index(Output::dv)].component[c] + at};
+        const JetPlanes<T> to{position,
+                              own_plane(task.out[output_index(Output::du)].component[c] + at),
+                              own_plane(task.out[output_index(Output::dv)].component[c] + at)};
         if constexpr (SomeTile::kBuffered) {
           sweep_derivatives(piece, component, column, 1, there, extra);
         }
@@ -169,9 +177,9 @@ constexpr bool kUsual = kOutputs == detail::kPosition || kOutputs == detail::kPo
 /// Sweeps one tile of consecutive patches. It is a function of its own because values that other
 /// tiles keep in registers would leave it too few.
 template <detail::OutputSet kOutputs, Known kKnown, typename SomeTile, typename Piece, typename T>
-SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& shared_task, const Piece& shared_piece,
-                                  std::size_t first_column, std::size_t columns, std::size_t patch,
-                                  std::size_t last_patch) {
+SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& __restrict shared_task,
+                                  const Piece& shared_piece, std::size_t first_column,
+                                  std::size_t columns, std::size_t patch, std::size_t last_patch) {
   Piece piece = shared_piece;
   if constexpr (kKnown == Known::open) {
     piece.lead = piece.trail = false; // a constant for the compiler
@@ -184,7 +192,8 @@ SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& shared_task, const Piece& s
     sweep_normal_patches<kOutputs == detail::kAnyOutputs, kKnown>(shared_task, piece, tile, patch,
                                                                   last_patch);
   } else {
-    GridTask<T> task = shared_task;
+    // In WebAssembly, a copy would be a call that takes as long as a tile of a small patch.
+    std::conditional_t<kSimd128, const GridTask<T>&, GridTask<T>> task = shared_task;
     assume<kKnown>(task);
     sweep_component_patches<kOutputs>(task, piece, tile, patch, last_patch);
   }

@@ -48,12 +48,9 @@ struct TileSweeper {
 /// short that one which overlaps is as fast or faster, and 70 KB less code; WebAssembly has it for
 /// derivatives.
 template <detail::OutputSet kOutputs, typename V>
-constexpr bool kSingleColumns =
-#if defined(SIMDBEZIER_KERNELS_SIMD128)
-    kOutputs == detail::kPositionDerivatives;
-#else
-    kSse2 ? kOutputs == detail::kPositionNormal&& kLanes<V> > 2 : kUsual<kOutputs>;
-#endif
+constexpr bool kSingleColumns = kSimd128 ? kOutputs == detail::kPositionDerivatives
+                                : kSse2  ? kOutputs == detail::kPositionNormal&& kLanes<V> > 2
+                                         : kUsual<kOutputs>;
 
 /// Whether the last `rest` columns of `first` and more take a register of their own that begins
 /// within the one before it. Some columns are computed twice, by idle lanes. That saves stores of

@@ -17,11 +17,21 @@ SIMDBEZIER_INLINE T* own_address(T* address) {
   return address;
 }
 
+/// The same for a plane that is written row by row, in WebAssembly alone: V8 would add up base,
+/// patch and tile for each row.
+template <typename T>
+SIMDBEZIER_INLINE T* own_plane(T* address) {
+  return kSimd128 ? own_address(address) : address;
+}
+
 /// Asks for the cache line at an address. Without the empty statement, whose effects are unknown,
 /// g++ takes functions that do nothing else for ones without an effect, and drops their calls.
+/// WebAssembly cannot ask.
 SIMDBEZIER_INLINE void prefetch_line(const void* address) {
-  asm volatile("" : "+r"(address));
-  __builtin_prefetch(address);
+  if constexpr (!kSimd128) {
+    asm volatile("" : "+r"(address));
+    __builtin_prefetch(address);
+  }
 }
 /// The same, but the address stays base, index and constant in the instruction instead of taking a
 /// register.
