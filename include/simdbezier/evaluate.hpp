@@ -24,7 +24,9 @@
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
 //   Layouts     packed planes, packed triples and vertices without gaps are the fast ones. Planes
-//               of unit stride are written directly, all others by way of the first-level cache.
+//               of unit stride are written directly. So are triples and vertices without gaps on
+//               AVX2 and AVX-512, if edges are watertight and the set has no local origins. All
+//               others go by way of the first-level cache.
 //   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y by even and odd
 //               parts (degree_v 3, 4, 5: 3 products and 2 sums a component and pair of samples of
 //               bicubic patches) or by Horner's rule (any other: degree_v multiply-adds a sample).

@@ -44,9 +44,10 @@ struct MeshOutputs {
 ///             On an edge of two sides, a patch whose normals disagree with the first one's is left
 ///             out unless it is turned. If the sum is shorter than 0.001 of the number of normals,
 ///             the first normal stays.
-/// Order:      other numbers of the same patches change no position, if control points are equal,
-///             and no normal at inner points and on edges of one side or two; others change by the
-///             rounding of their sum. docs/tessellation.md says what the lowest patch decides.
+/// Order:      if patches are given in another order, positions stay, as long as control points
+///             are equal. So do normals at inner points and on edges of one side or two. Other
+///             normals change by the rounding of their sum. docs/tessellation.md says what the
+///             lowest patch decides.
 /// Returns:    ok | the statuses of outputs (bad_components: not three) and of running |
 ///             unequal_lengths (set and layout have other numbers of patches) | bad_patch_range.
 /// Allocation: scratch per thread, which grows with the most vertices on one patch's boundary.

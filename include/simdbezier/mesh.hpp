@@ -22,8 +22,8 @@
 
 namespace simdbezier {
 
-/// What a mesh shall be like. At least one of the first members has to say how fine it is. The mesh
-/// keeps all that are given, except that a grid (nu, nv) excludes all others (bad_grid).
+/// What a mesh shall be like. The members up to nv say how fine it is, and at least one of them is
+/// needed. The mesh keeps all that are given, but a grid (nu, nv) excludes the others (bad_grid).
 struct MeshOptions {
   RateOptions rates = {}; ///< a tolerance, a longest edge, an angle
   /// The tolerance as a share of the diagonal of the box of all control points.
@@ -41,7 +41,8 @@ struct MeshOptions {
   bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  /// Sharper edges stay sharp, see split_creases(). 0: no vertex is that of two patches.
+  /// Edges of this angle or more stay sharp, see split_creases(). 0: no vertex is that of two
+  /// patches.
   double crease_degrees = kUnlimited;
 
   bool normals = true;

@@ -22,8 +22,7 @@ struct MeshData;
 /// The largest number of cells of a patch in one direction.
 inline constexpr std::uint32_t kMostSegments = 4096;
 
-/// Cells of every patch in u and in v, 1 to kMostSegments, and how they are cut (Zone). Both have
-/// one value a patch.
+/// How many cells each patch has in u and in v, from 1 to kMostSegments, and how they are cut.
 struct PatchRates {
   std::span<const std::uint32_t> cells_u;
   std::span<const std::uint32_t> cells_v;
@@ -31,9 +30,9 @@ struct PatchRates {
   std::span<const std::uint16_t> diagonals;
 };
 
-/// The zones of a patch's cells, which share a diagonal: low, high and middle cells in u and in v,
-/// the middle ones being those across the patch's middle if a rate is odd. Bit 3 * zone_v + zone_u
-/// is set if the diagonal runs from (1,0) to (0,1).
+/// Cells of one zone share a diagonal. In u and in v a cell is low, high or, if the rate is odd and
+/// the cell lies across the patch's middle, middle. Bit 3 * zone_v + zone_u is set if the diagonal
+/// runs from (1,0) to (0,1).
 enum class Zone : std::uint8_t { low, high, middle };
 
 /// What a mesh consists of.
@@ -82,9 +81,8 @@ private:
 /// Raises small rates, by as little as needed, if the mesh would otherwise contain two triangles on
 /// the same three vertices, an edge shared by more than two triangles, or a cell whose corners
 /// require different diagonals. Between opposite sides that are points there are then at least two
-/// cells, and three if a third side is a point, too. Other rates stay, even those of patches that
-/// repeat an earlier one, whose triangles coincide, and of patches two neighbouring sides of which
-/// are one edge, because more cells would not help.
+/// cells, and three if a third side is a point, too. Other rates stay. More cells would not help
+/// patches that repeat an earlier one, nor patches with two neighbouring sides that are one edge.
 /// cells_u, cells_v: one value a patch, 1 to kMostSegments; undefined after out_of_memory.
 /// raised:  the number of patches that changed.
 /// Threads: the caller's alone. Determinism: a function of the topology and the rates.
@@ -211,12 +209,12 @@ struct ClusterOutputs {
 // place where an own one has a corner. Together, in the order of the whole model, they are a model
 // for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(), which give for own
 // patches what the whole model would give, bit for bit, but number vertices from 0 in each part. In
-// the whole mesh, a part's numbers begin at the number of vertices that own patches of earlier
-// parts own; these tell where the vertices of ghosts begin (PatchVertices).
+// the whole mesh, the numbers of a part begin behind all vertices that the parts before it own.
+// Those parts also tell where the vertices of ghosts begin (PatchVertices).
 //
-// Rates depend on the patch and on diagonals that the topology forces, both known in a part that
-// contains all of its neighbours, but for entangled patches (Topology::is_entangled()). Rates of
-// ghosts come from their own part, or the model also contains the ghosts of ghosts.
+// Rates depend on the patch and on diagonals that the topology forces. A part that contains all
+// neighbours of a patch knows both, unless the patch is entangled (Topology::is_entangled()). Take
+// the rates of ghosts from their own part, or add the ghosts of ghosts to the model.
 
 /// Keys by which corners and edges of patches in different memories are compared.
 struct PatchKeys {

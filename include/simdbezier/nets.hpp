@@ -5,8 +5,8 @@
 //             that of homogeneous coordinates (wx, wy, wz, w); the form of the nets stays.
 //   Outputs   belong to the caller. Count, components and weights are those of the input, the
 //             degrees what the operation says. They may not overlap the inputs or each other, but
-//             may lie between one another (four children of a patch side by side, for instance);
-//             the strides must nest: sorted by size, each exceeds what the smaller ones span.
+//             may be interleaved (four children of a patch side by side, for instance). Sorted by
+//             size, each stride must exceed what the smaller ones span.
 //   Faults    control values must be finite and weights positive; the first patch at fault is
 //             named. Values so large that the operation overflows come out infinite or nan.
 //   Bits      equal on all instruction sets (products and sums are rounded one by one, nothing is

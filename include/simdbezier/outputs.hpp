@@ -254,8 +254,8 @@ struct Outputs {
   Vectors<T> normal; ///< for sets of three components only, as curvatures are
   Values<SampleStatus> status;
   Curvatures<T> curvature;
-  /// The component that comes out as x; the next ones come out as y and z. The z (and y) pointers
-  /// are null for sets of fewer than three components, and for the last components of larger sets.
+  /// The component that goes to x. The next two go to y and z. If the set has no such component,
+  /// the pointers z (and y) are null.
   int first_component = 0;
 
   /// How the vectors are numbered, and how many there are.

@@ -76,8 +76,8 @@ template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
                                                     const RunOptions& options = {}) noexcept;
 
-/// Finds tolerances for choose_rates() with which no point of a surface is seen more than `pixels`
-/// away from its place on the mesh, from this camera.
+/// Finds tolerances for choose_rates(). With them, this camera sees no point of a surface more than
+/// `pixels` away from its place on the mesh.
 /// Formula: pixels * depth / (focal_length * f). The depth is that of the nearest control point, at
 ///          least Camera::nearest; f is the secant of the angle between the axis and the picture's
 ///          corners. An orthographic camera has pixels / focal_length.

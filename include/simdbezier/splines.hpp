@@ -15,8 +15,8 @@
 //             occur up to p + 1 times; t_p < t_n. No knots: uniform ones, t_i = i - p. openNURBS
 //             leaves the first and the last one out.
 //   Periodic  directions have n control points, which begin again after the last one, and n + 1
-//             knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i, t_(i+1)] is a mean
-//             of points i to i + p modulo n. No knots: t_i = i.
+//             knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i, t_(i+1)] depends
+//             on points i to i + p modulo n. No knots: t_i = i.
 //   Ranges    A part of the domain makes the first and the last piece end at values that need not
 //             be knots. Spans outside of it have no pieces.
 //   Patches   are numbered along u first: patch iv * patches_u + iu.
@@ -86,9 +86,8 @@ struct SplineSurface {
   std::span<const double> knots_v = {};
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
-  /// Neighbouring knots count as one if the first and the last of them are no further apart: as the
-  /// first, but at the end as the last. An end of a range that is no further from a knot is that
-  /// knot.
+  /// Neighbouring knots no further apart than this become the first of them, or at the end of the
+  /// domain the last. An end of a range that is this near to a knot becomes that knot.
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };

@@ -44,8 +44,8 @@ struct TopologyOptions {
   /// A side whose control points all lie within this distance of both of its ends counts as a
   /// point, with all sides that share its edge. 0: only if they are one point (find_adjacency()).
   double point_size = 0;
-  /// Turns patches so that the normals of neighbours agree: those that disagree with the lowest
-  /// patch of their connected part. Otherwise all stay as they are given.
+  /// Turns each patch that disagrees with the lowest one of its connected part, so that the normals
+  /// of neighbours agree. false: all patches stay as they are given.
   bool orient = false;
   /// Turns all patches after that: triangles run, and normals point, the other way.
   bool flip = false;
@@ -167,9 +167,9 @@ struct EdgeLink {
 /// nets:      views of any degrees: an edge of degree 3 of a 3 x 5 patch may match one of a 7 x 3
 ///            patch. Patches are numbered through, view after view.
 /// edges:     [4 * patch + PatchEdge]; may not overlap the memory from the first to the last value
-///            of any view, gaps included. A shared edge gets the other one, a non_manifold edge the
-///            next one with the same points, in order of patch and edge, and the last of them the
-///            first. edge, reversed and patch of boundary and collapsed edges are 0.
+///            of any view, gaps included. A shared edge gets its counterpart. A non_manifold edge
+///            gets the next one with the same points, in order of patch and edge; the last of them
+///            gets the first. edge, reversed and patch of boundary and collapsed edges are 0.
 /// Match:     equal degree and components, and bit-equal control points, weights included, in the
 ///            same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
 ///            counts as none; other weights must have the same form. Such edges are watertight.
@@ -244,8 +244,8 @@ struct SplitNets {
 /// corners is the side of another patch. A cut divides the opposite side as well, and so all
 /// patches across it, up to an open side, a side that is a point, or the patch where it began. This
 /// is repeated until nothing is found. If nothing is cut, SplitNets::nets are those given.
-/// Gap:     a short edge counts as unjoined if it is within a 32nd of its size of a part of another
-///          edge, or if cuts for it would lead to more pieces than allowed.
+/// Gap:     a short edge counts as unjoined if a part of another edge is at most 1/32 of its size
+///          away, or if cuts for it would lead to more pieces than allowed.
 /// Cost:    a find_topology() each time, and microseconds for each open side in another one's box.
 /// Returns: as find_topology(), and the statuses of segment() for patches that are to be cut. Nets,
 ///          threads, allocation (and the pieces) and determinism are as there.

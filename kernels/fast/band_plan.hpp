@@ -1,4 +1,4 @@
-// Which rows go in bands (grid/row_bands.hpp), and how.
+// Which rows go in bands (fast/row_bands.hpp), and how.
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"

@@ -1,4 +1,4 @@
-// Small grids (grid/small_grids.hpp): positions with first derivatives or normals.
+// Small grids (fast/small_grids.hpp): positions with first derivatives or normals.
 //
 // Inner samples and tangents along edges fall out of the positions' schemes. Besides, edges
 // take the patch's derivative across them, and corners the tangents of two edges each.

@@ -1,4 +1,4 @@
-// Tables for grid/small_grids.hpp: in which lane of which register a sample of a small grid is
+// Tables for fast/small_grids.hpp: in which lane of which register a sample of a small grid is
 // computed.
 #pragma once
 

@@ -9,8 +9,8 @@
 //   border    group s, lane e   inner sample s of edge e: along the edge
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. Positions stand here,
-// derivatives in grid/small_grid_jets.hpp. AVX2, and some squares on AVX-512, take patches
-// as lanes: grid/small_grids_across.hpp; so do grids of two rows or columns, which are all border.
+// derivatives in fast/small_grid_jets.hpp. AVX2, and some squares on AVX-512, take patches
+// as lanes: fast/small_grids_across.hpp; so do grids of two rows or columns, which are all border.
 // Doubles on AVX-512 have two groups, and tiles.
 #pragma once
 

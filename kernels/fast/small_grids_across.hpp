@@ -1,9 +1,9 @@
-// Small grids (grid/small_grids.hpp) whose lanes are patches: on AVX2, and some squares on AVX-512.
+// Small grids (fast/small_grids.hpp) whose lanes are patches: on AVX2, and some squares on AVX-512.
 //
 // Coefficients of a register of patches are turned on their way from memory, and samples on their
 // way back; in between no lane is idle, whatever the size of the grid. The last patches that do not
 // fill a register are computed together with some of those before them, once more. Positions stand
-// here, derivatives in grid/small_jets_across.hpp.
+// here, derivatives in fast/small_jets_across.hpp.
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"

@@ -1,4 +1,4 @@
-// Small grids whose lanes are patches (grid/small_grids_across.hpp): positions with first
+// Small grids whose lanes are patches (fast/small_grids_across.hpp): positions with first
 // derivatives or normals.
 #pragma once
 
@@ -144,7 +144,7 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
 
 /// Whether the compiler knows squares of `side` samples that are faster so than in groups of lanes
 /// or, of doubles, in tiles, where registers are lines. Floats of 4 x 4 have kernels of their own
-/// (grid/squares_of_four.hpp).
+/// (fast/squares_of_four.hpp).
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool is_known_across(std::size_t side) {
   constexpr bool kPositions = kOutputs == detail::kPosition;

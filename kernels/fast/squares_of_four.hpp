@@ -8,7 +8,7 @@
 //   lane e of the border         is an inner sample of edge e; a second register has the others,
 //   lane 2 v + u of the corners  is corner (u, v).
 // A component's samples fill one register, which takes two permutations. Larger grids fill groups
-// by themselves (grid/small_grids.hpp). The operations of a sample are those of tiles, and so are
+// by themselves (fast/small_grids.hpp). The operations of a sample are those of tiles, and so are
 // its bits.
 #pragma once
 

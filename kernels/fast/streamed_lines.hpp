@@ -1,6 +1,6 @@
 // Rows of one tile that go straight to memory: each plane is a stream of whole lines
 // (simd/line_stream.hpp), which goes on from patch to patch.
-// They overlap with the arithmetic, as grid/streamed_planes.hpp says.
+// They overlap with the arithmetic, as fast/streamed_planes.hpp says.
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"

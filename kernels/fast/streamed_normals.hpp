@@ -1,4 +1,4 @@
-// Positions and normals that go straight to memory in order, where grid/streamed_planes.hpp does so
+// Positions and normals that go straight to memory in order, where fast/streamed_planes.hpp does so
 // for other outputs: all six planes at once, since a normal takes all components.
 //
 // Copies from staging add their time to that of the arithmetic, while streaming stores of registers

@@ -142,7 +142,7 @@ struct JetRows {
   }
 };
 
-/// Whether a tile sweeps the planes of derivatives one after the other, as grid/row_bands.hpp does:
+/// Whether a tile sweeps the planes of derivatives one after the other, as fast/row_bands.hpp does:
 /// squares of floats whose rows are no whole registers, which one tile of at least a line covers.
 /// There are no origins.
 template <typename Piece, typename SomeTile>

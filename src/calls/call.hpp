@@ -4,8 +4,9 @@
 //   Status check()          everything that a caller can get wrong
 //   bool empty()            nothing is to be done, so that there may not even be a set
 //   auto plan()             the work: which kernels, which pieces, how outputs are delivered;
-//                           plan(Way) where that is a choice (calls/destined_call.hpp), and
-//                           plan_narrower() where two instruction sets are (calls/width_choice.hpp)
+//                           plan(Way) where that is a choice (choice/destined_call.hpp), and
+//                           plan_narrower() where two instruction sets are
+//                           (choice/width_choice.hpp)
 //
 // and the work's
 //   std::size_t units()           what threads share

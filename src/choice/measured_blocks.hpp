@@ -1,4 +1,4 @@
-// Which part of a large call is measured (calls/destined_call.hpp), in blocks of equal size.
+// Which part of a large call is measured (choice/destined_call.hpp), in blocks of equal size.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // The ways in which grids on bicubic patches in space are evaluated. All of them give the same
-// bits; kernels/grid/strategies.hpp says when each of them is taken. No xsimd in here.
+// bits; kernels/grid/strategies.hpp says when each of them is taken, but for strips, which
+// src/choice/row_strips.hpp decides. No xsimd in here.
 #pragma once
 
 #include <cstddef>

@@ -53,8 +53,8 @@ void add_mesh(Entries& entries) {
         "Cuts patches where corners of others lie on their open edges, so that these can be joined",
         command},
        {"--point-size", "D", "a distance above 0",
-        "Makes points of edges whose control points are this near to the first one, also of those "
-        "that patches share",
+        "Makes points of edges whose control points are this near to both ends, also of those that "
+        "patches share",
         command},
        {"--crease", "DEG", "degrees from 0 to 180",
         "Patches whose normals differ by this much where they meet do not share normals there",

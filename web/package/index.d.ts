@@ -31,7 +31,8 @@ export interface MeshOptions {
   grid?: number | [number, number];
   /** false: patches share no vertices. true by default. */
   weld?: boolean;
-  /** Edges whose patches meet at a larger angle, in degrees, keep two normals. By default all are merged. */
+  /** Edges whose patches meet at this angle or a larger one, in degrees, keep two normals. 0: patches share no vertices.
+   * By default all normals are merged. */
   crease?: number;
   /** The distance within which open sides become one edge. */
   snap?: number;

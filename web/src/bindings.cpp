@@ -1,5 +1,5 @@
-// What core.js calls. A call that fails returns 0 and leaves a message behind; no exception leaves
-// the module.
+// What library.js calls. A call that fails returns 0 and leaves a message behind; no exception
+// leaves the module.
 #include <cstdlib>
 #include <new>
 #include <stdexcept>

@@ -12,8 +12,8 @@
 
 namespace simdbezier::web {
 
-/// What a mesh is to be like, as core.js fills it in: nan stands for what is not said, 0 and 1 for
-/// false and true. Angles are degrees.
+/// What a mesh is to be like, as library.js fills it in: nan stands for what is not said, 0 and 1
+/// for false and true. Angles are degrees.
 struct MeshWish {
   double tolerance;
   double relative;
@@ -41,7 +41,8 @@ struct SampleWish {
   }
 };
 
-/// Numbers and places of results, as core.js reads them. Places are those in the module's memory.
+/// Numbers and places of results, as library.js reads them. Places are those in the module's
+/// memory.
 struct Results {
   double patches;
   double diagonal;
