@@ -4,7 +4,6 @@
 #include "kernels/grid/grid_kernel.hpp"
 #include "kernels/grid/split_stores.hpp"
 #include "kernels/pack/bicubic_pack_kernel.hpp"
-#include "kernels/scattered/scattered_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -17,6 +16,16 @@ extern const detail::NetTable<float> net_table_f32;
 extern const detail::NetTable<double> net_table_f64;
 extern const detail::MeshTable<float> mesh_table_f32;
 extern const detail::MeshTable<double> mesh_table_f64;
+
+/// Returns the largest index, 0 where there is none. It is a kernel because only the wider
+/// instruction sets have a maximum of unsigned integers.
+inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count) {
+  std::uint32_t highest = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    highest = highest > index[k] ? highest : index[k];
+  }
+  return highest;
+}
 
 template <typename T>
 constexpr detail::KernelTable<T>
@@ -43,7 +52,6 @@ make_table(const detail::ShapeTable<T>& shapes, const detail::CurveTable<T>& cur
     table.grid[detail::kPositionDerivatives] = grid_kernel<T, detail::kPositionDerivatives>;
     table.grid[detail::kAnyOutputs] = grid_kernel<T, detail::kAnyOutputs>;
     table.grid[detail::kSecondDerivatives] = grid_kernel<T, detail::kSecondDerivatives>;
-    table.scattered = scattered_kernel<T>;
   }
   return table;
 }

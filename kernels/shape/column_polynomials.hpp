@@ -71,18 +71,19 @@ struct ColumnPolynomials {
       quotients<kRows>(slots, order, y, origins, jet);
     } else {
       slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        Partials<V> at[kRows];
-        partials<kRows>(order, power[slot], y, at);
-        repeat<kRows>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA { store(jet[r], slot, at[r]); });
+        evaluate_slot<kRows>(slot, order, y, origins, jet);
       });
     }
-    if (origins != nullptr) {
-      slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        repeat<kRows>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
-          jet[r].position[slot] = jet[r].position[slot] + origins->position[slot];
-        });
-      });
-    }
+  }
+  /// This is evaluate() of one component, which needs no weights.
+  template <std::size_t kRows>
+  SIMDBEZIER_INLINE void evaluate_slot(std::size_t slot, typename P::OrderV order, const V* y,
+                                       const ColumnOrigins<V>* origins, SampleJet<V>* jet) const {
+    static_assert(!P::kWeighted);
+    Partials<V> at[kRows];
+    partials<kRows>(order, power[slot], y, at);
+    repeat<kRows>([&](std::size_t r)
+                      SIMDBEZIER_INLINE_LAMBDA { store(jet[r], slot, at[r], origins); });
   }
 
   /// Evaluates samples at y and -y, which share most of their arithmetic, of an order that is known
@@ -182,8 +183,12 @@ private:
     }
   }
 
-  static SIMDBEZIER_INLINE void store(SampleJet<V>& jet, std::size_t slot, const Partials<V>& at) {
+  static SIMDBEZIER_INLINE void store(SampleJet<V>& jet, std::size_t slot, const Partials<V>& at,
+                                      const ColumnOrigins<V>* origins) {
     jet.position[slot] = at.value;
+    if (origins != nullptr) [[unlikely]] {
+      jet.position[slot] = at.value + origins->position[slot];
+    }
     if constexpr (kDepth > 0) {
       jet.du[slot] = at.x;
       jet.dv[slot] = at.y;
@@ -211,7 +216,7 @@ private:
         at.yy = q.second(h.yy, at.value, at.y, at.y, w.y, w.y, w.yy);
       }
     }
-    store(jet, slot, at);
+    store(jet, slot, at, origins);
   }
 
   static SIMDBEZIER_INLINE void negate_slopes(Partials<V>& w) {

@@ -71,9 +71,10 @@ public:
   /// build() of lanes in any cells of any patches, off the edges u = const: those of lane i have
   /// coefficients from from[i] on. Lanes are powers of Y first, those of a sample side by side in
   /// 128 bits, which are then turned. Reads up to so many bits behind the last coefficient, where
-  /// the edges stand. origins may be null.
-  SIMDBEZIER_PART void build_mixed(const T* const from[kLanes<V>],
-                                   const ColumnOrigins<V>* origins) {
+  /// the edges stand. origins may be null. Calls built(slot) for each channel that is there.
+  template <typename Built>
+  SIMDBEZIER_INLINE void build_mixed(const T* const from[kLanes<V>],
+                                     const ColumnOrigins<V>* origins, const Built& built) {
     constexpr std::size_t kN = kQuad<V>;
     static_assert(P::OrderV::kMost % kN == 0);
     origins_ = origins;
@@ -131,6 +132,22 @@ public:
           turn(l);
         }
       }
+      built(slot);
+    });
+  }
+
+  /// This is build_mixed() of lanes in one patch, which is one cell.
+  template <typename Built>
+  SIMDBEZIER_INLINE void build_inside(const T* coefficients, const ColumnOrigins<V>* origins,
+                                      const Built& built) {
+    origins_ = origins;
+    const auto load = [](const T* c, std::size_t i)
+                          SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(c[i]); };
+    slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+      const T* const matrix = coefficients + slots_.channel(slot) * shape_.matrix();
+      build_powers<P::OrderV::kMost>(
+          matrix, load, [](Series<V>*) SIMDBEZIER_INLINE_LAMBDA {}, polynomials_.power[slot][0]);
+      built(slot);
     });
   }
 

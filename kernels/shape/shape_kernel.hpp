@@ -87,10 +87,9 @@ SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
   run.template operator()<AnyPlan<kDepth, kRational>>();
 }
 
-/// Calls run.operator()<kDepth, kRational>().
-template <typename Task, typename Run>
+/// Calls run.operator()<kDepth, kRational>(). kFirst is the depth for first derivatives.
+template <std::size_t kFirst, typename Task, typename Run>
 SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
-  constexpr std::size_t kFirst = kCompactShapes ? 2 : 1; // depth for first derivatives
   const auto with_weights = [&]<std::size_t kDepth>() SIMDBEZIER_INLINE_LAMBDA {
     task.shape->rational ? run.template operator()<kDepth, true>()
                          : run.template operator()<kDepth, false>();
@@ -108,7 +107,7 @@ SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
 template <typename T>
 SIMDBEZIER_KERNEL void shape_grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
+  with_depth<kCompactShapes ? 2 : 1>(task, [&]<std::size_t kDepth, bool kRational>() {
     with_grid_plan<kDepth, kRational>(task, [&]<typename P>() {
       if constexpr (P::kKnown && P::kDepth < 2) {
         sweep_known<P>(task);
@@ -122,8 +121,8 @@ SIMDBEZIER_KERNEL void shape_grid_kernel(GridTask<T>& task) {
 template <typename T>
 SIMDBEZIER_KERNEL void shape_scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
-    if constexpr (!kCompactShapes && kRational && kDepth < 2) { // measured: docs/experiments.md
+  with_depth<kCompact ? 2 : 1>(task, [&]<std::size_t kDepth, bool kRational>() {
+    if constexpr (!kCompact && (!kCompactShapes || !kRational)) {
       const NetShape& shape = *task.shape;
       if (shape.components == 3 && task.first_component == 0 && shape.degree_u == 3 &&
           shape.degree_v == 3) {

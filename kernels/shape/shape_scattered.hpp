@@ -1,16 +1,31 @@
 // Scattered samples on patches of any shape: lanes are consecutive samples, of one patch or of any.
 //
 // A register has one formula. It is that of samples off the edges, unless all lanes are on one
-// patch and one edge; the others are rare, and are evaluated again, one by one.
+// patch and the compiler does not know its degrees; the others are rare, and are evaluated again.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
-#include "kernels/poly/half_centred.hpp"
 #include "kernels/shape/shape_outputs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::ScatteredTask;
+
+/// The half-centred form of a parameter as it was given. It is exact where the parameter is
+/// centred, and rounded once where it is not: one of shift and scale leaves values as they are, so
+/// that one operation does.
+template <typename V>
+SIMDBEZIER_PART V half_centred(const ScatteredTask<ScalarOf<V>>& task, V given) {
+  return madd(given, broadcast<V>(task.scale), broadcast<V>(-task.shift));
+}
+
+/// This is half_centred(), but nan where the parameter is not finite.
+template <typename T>
+SIMDBEZIER_PART T finite_half_centred(const ScatteredTask<T>& task, T given) {
+  return given - given == T(0) ? half_centred(task, given) : static_cast<T>(__builtin_nan(""));
+}
 
 /// Whether a single sample has code of its own, without lanes. WebAssembly does without: its code
 /// goes through the network, and a call from JavaScript takes longer than a sample.
@@ -87,11 +102,12 @@ SIMDBEZIER_RARE void find_mixed_origins(const ScatteredTask<ScalarOf<V>>& task,
   });
 }
 
-/// Builds the columns of lanes off edges in any cells of any patches.
-template <typename P, typename V>
-SIMDBEZIER_PART void build_mixed(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
-                                 const SampleLanes<V>& lanes, ShapeColumns<P, V>& columns,
-                                 ColumnOrigins<V>& room) {
+/// Builds the columns of lanes off edges in any cells of any patches. Calls built(slot) for each
+/// channel that is there.
+template <typename P, typename V, typename Built>
+SIMDBEZIER_INLINE void build_mixed(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
+                                   const SampleLanes<V>& lanes, ShapeColumns<P, V>& columns,
+                                   ColumnOrigins<V>& room, const Built& built) {
   using T = ScalarOf<V>;
   alignas(64) T x[kLanes<V>];
   alignas(64) T y[kLanes<V>];
@@ -114,7 +130,19 @@ SIMDBEZIER_PART void build_mixed(const ScatteredTask<ScalarOf<V>>& task, const N
   if (origins) [[unlikely]] {
     find_mixed_origins<P>(task, shape, cell, room);
   }
-  columns.build_mixed(from, origins ? &room : nullptr);
+  columns.build_mixed(from, origins ? &room : nullptr, built);
+}
+
+/// This is build_mixed() of a patch that is one cell. Lanes are often in the same one.
+template <typename P, typename V, typename Built>
+SIMDBEZIER_INLINE void build_known(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
+                                   const SampleLanes<V>& lanes, ShapeColumns<P, V>& columns,
+                                   ColumnOrigins<V>& room, const Built& built) {
+  const std::size_t patch = *lanes.patch;
+  if (task.origins != nullptr || !all_equal<kLanes<V>>(lanes.patch, *lanes.patch)) {
+    return build_mixed(task, shape, lanes, columns, room, built);
+  }
+  columns.build_inside(task.coefficients + patch * shape.cell_coefficients(), nullptr, built);
 }
 
 /// Builds the columns of a single sample off edges u = const in a set without origins: its lanes
@@ -131,22 +159,38 @@ SIMDBEZIER_PART bool build_across(const ScatteredTask<ScalarOf<V>>& task, const 
   return false;
 }
 
-/// Stores all outputs that a task wants, normals and curvatures before any second look.
+/// Stores what a task wants of one component.
 template <typename P, typename V>
-SIMDBEZIER_PART void store_block(const ScatteredTask<ScalarOf<V>>& task,
-                                 const SampleRange<V>& range, const SampleJet<V>& jet) {
-  store_group<P>(task, Output::position, range, jet.position);
+SIMDBEZIER_PART void store_slot(const ScatteredTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                                const SampleJet<V>& jet, std::size_t slot) {
+  const auto store = [&](Output output, V value) SIMDBEZIER_INLINE_LAMBDA {
+    ScalarOf<V>* const plane = task.out[output_index(output)].component[slot];
+    if (plane != nullptr) {
+      range.store(plane, value);
+    }
+  };
+  store(Output::position, jet.position[slot]);
   if constexpr (P::kDepth > 0) {
-    store_group<P>(task, Output::du, range, jet.du);
-    store_group<P>(task, Output::dv, range, jet.dv);
+    store(Output::du, jet.du[slot]);
+    store(Output::dv, jet.dv[slot]);
+  }
+  if constexpr (P::kDepth > 1) {
+    store(Output::duu, jet.duu[slot]);
+    store(Output::duv, jet.duv[slot]);
+    store(Output::dvv, jet.dvv[slot]);
+  }
+}
+
+/// Stores normals and curvatures before any second look.
+template <typename P, typename V>
+SIMDBEZIER_PART void store_joint(const ScatteredTask<ScalarOf<V>>& task,
+                                 const SampleRange<V>& range, const SampleJet<V>& jet) {
+  if constexpr (P::kDepth > 0) {
     if (task.out[output_index(Output::normal)].wanted()) {
       store_first_normals(task, range, jet);
     }
   }
   if constexpr (P::kDepth > 1) {
-    store_group<P>(task, Output::duu, range, jet.duu);
-    store_group<P>(task, Output::duv, range, jet.duv);
-    store_group<P>(task, Output::dvv, range, jet.dvv);
     if (wants_curvatures(task)) {
       CurvatureFrame<V> frame;
       frame.find(jet);
@@ -189,27 +233,34 @@ template <std::size_t kDepth, bool kRational, typename T>
 SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size_t k,
                                          std::size_t count);
 
-/// Finishes samples of which not all are usual: those that are on edges u = const (v = const) which
-/// are not done, or not finite, are evaluated alone; normals that do not pass take the second look.
-/// Vectors come by value, or the fast path would have to keep them in memory.
+/// Finishes samples [first, first + count) of which not all are usual: those that are on edges
+/// u = const (v = const) which are not done, or not finite, are evaluated alone; normals that do
+/// not pass take the second look. Nothing comes by address, or the fast path would have to keep it
+/// in memory.
 template <typename P, typename V>
-SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task,
-                                    const SampleLanes<V>& lanes, V local_x, V local_y, bool done_u,
-                                    bool done_v, V squared, V floor) {
+SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task, std::size_t first,
+                                    std::size_t count, bool done_u, bool done_v, V squared,
+                                    V floor) {
   using T = ScalarOf<V>;
-  const V vectors[] = {local_x, local_y, squared, floor};
+  const SampleLanes<V> lanes(task, first, count);
+  if (P::kKnown && all_equal<kLanes<V>>(lanes.patch, *lanes.patch)) { // edges have formulas there
+    return evaluate_together<P::kDepth, P::kWeighted>(task, first, count);
+  }
+  const NetShape& shape = *task.shape;
+  const V vectors[] = {CellColumns<V>(lanes.x, shape.cells_u(), false).local.x,
+                       CellColumns<V>(lanes.y, shape.cells_v(), false).local.x, squared, floor};
   alignas(64) T value[4][kLanes<V>];
   for (int i = 0; i < 4; ++i) {
     store_vector(value[i], vectors[i]);
   }
-  for (std::size_t i = 0; i < lanes.count; ++i) {
-    const std::size_t k = lanes.first + i;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = first + i;
     const T u = value[0][i];
     const T v = value[1][i];
     const bool edge =
         (!done_u && edge_of_cell(u) < kEdges) || (!done_v && edge_of_cell(v) < kEdges);
     const bool finite = u - u == T(0) && v - v == T(0);
-    if (edge || (!finite && lanes.count > 1)) {
+    if (edge || (!finite && count > 1)) {
       evaluate_together<P::kDepth, P::kWeighted>(task, k, 1);
       continue;
     }
@@ -223,21 +274,54 @@ SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task,
   }
 }
 
+/// Asks for the coefficients of a sample that comes soon.
+template <typename T>
+SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShape& shape,
+                                     std::size_t k) {
+  constexpr std::size_t kAhead = 48;
+  if (k + kAhead < task.count) {
+    const std::size_t next = k + kAhead;
+    const bool high_u = shape.cells_u() == 2 && half_centred(task, task.u[next]) >= T(0);
+    const bool high_v = shape.cells_v() == 2 && half_centred(task, task.v[next]) >= T(0);
+    const std::size_t cell = task.patch[next] * shape.cells() + high_v * shape.cells_u() + high_u;
+    prefetch_values(task.coefficients + cell * shape.cell_coefficients(),
+                    shape.cell_coefficients());
+  }
+}
+
 /// Evaluates samples [k, k + count), as SampleLanes has them.
 template <typename P, typename V>
 SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
                                     std::size_t k, std::size_t count) {
   using T = ScalarOf<V>;
   const SampleLanes<V> lanes(task, k, count);
-  const CellColumns<V> columns(lanes.x, shape.cells_u(), task.watertight);
-  const CellColumns<V> rows(lanes.y, shape.cells_v(), task.watertight);
+  const bool with_edges = !P::kKnown && task.watertight;
+  const CellColumns<V> columns(lanes.x, shape.cells_u(), with_edges);
+  const CellColumns<V> rows(lanes.y, shape.cells_v(), with_edges);
   ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
+  const SampleRange<V> range{0, k, count, 0, lanes.x, lanes.y, {}};
   ColumnOrigins<V> origins;
   SampleJet<V> jet;
   std::size_t edge = kEdges; // v = const, where all lanes are on it
-  const bool one_row = kIsScalar<V> || (all_equal<kLanes<V>>(lanes.patch, *lanes.patch) &&
-                                        !(rows.any_low && rows.any_high));
-  if (one_row) {
+  const bool one_row =
+      !P::kKnown && (kIsScalar<V> || (all_equal<kLanes<V>>(lanes.patch, *lanes.patch) &&
+                                      !(rows.any_low && rows.any_high)));
+  if constexpr (P::kKnown) { // a component is stored as soon as it is there, where it can be
+    build_known(task, shape, lanes, polynomials, origins,
+                [&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+                  for (std::size_t i = slot; task.prefetch && i < count; i += P::Slots::kSlots) {
+                    prefetch_sample(task, shape, k + i);
+                  }
+                  if constexpr (!P::kWeighted) {
+                    polynomials.polynomials().template evaluate_slot<1>(
+                        slot, polynomials.order_v(), &rows.local.x, polynomials.origins(), &jet);
+                    store_slot<P>(task, range, jet, slot);
+                  }
+                });
+    if constexpr (P::kWeighted) {
+      polynomials.template evaluate<1>(&rows.local.x, &jet);
+    }
+  } else if (one_row) {
     const CellRow<T> cells(task, shape, *lanes.patch, rows.any_low ? 0 : 1);
     const typename ShapeColumns<P, V>::Edges edges(shape, columns, lanes.x, task.watertight,
                                                    task.first_component, cells);
@@ -245,9 +329,7 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
       return task.watertight && all_of<V>(rows.local.x == broadcast<V>(local));
     };
     edge = all_on(T(-0.5)) ? detail::kEdgeV0 : all_on(T(0.5)) ? detail::kEdgeV1 : kEdges;
-    if constexpr (P::kKnown) {
-      polynomials.build(cells, edges, origins);
-    } else if (!build_across(task, columns, cells, polynomials)) {
+    if (!build_across(task, columns, cells, polynomials)) {
       build_columns(polynomials, cells, edges, origins);
     }
     polynomials.template evaluate<1>(&rows.local.x, &jet);
@@ -255,10 +337,14 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
       edges.replace_row(edge, jet);
     }
   } else if constexpr (!kIsScalar<V>) {
-    build_mixed(task, shape, lanes, polynomials, origins);
+    build_mixed(task, shape, lanes, polynomials, origins,
+                [](std::size_t) SIMDBEZIER_INLINE_LAMBDA {});
     polynomials.template evaluate<1>(&rows.local.x, &jet);
   }
-  store_block<P>(task, SampleRange<V>{0, k, count, 0, lanes.x, lanes.y, {}}, jet);
+  for (std::size_t slot = 0; (!P::kKnown || P::kWeighted) && slot < P::Slots::kMost; ++slot) {
+    store_slot<P>(task, range, jet, slot);
+  }
+  store_joint<P>(task, range, jet);
 
   const MaskOf<V> inside_u = are_inside(columns.local.x);
   const MaskOf<V> inside_v = are_inside(rows.local.x);
@@ -280,7 +366,7 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
     }
   }
   if (!all_pass()) [[unlikely]] {
-    finish_unusual<P>(task, lanes, columns.local.x, rows.local.x, one_row || !task.watertight,
+    finish_unusual<P>(task, k, count, one_row || !task.watertight,
                       edge < kEdges || !task.watertight, squared, floor);
   }
 }
@@ -299,35 +385,20 @@ SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size
   evaluate_block<P, vec<T>>(task, shape, k, count);
 }
 
-/// Asks for the coefficients of a sample that comes soon.
-template <typename T>
-SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShape& shape,
-                                     std::size_t k) {
-  constexpr std::size_t kAhead = 16;
-  if (k + kAhead < task.count) {
-    const std::size_t next = k + kAhead;
-    const bool high_u = shape.cells_u() == 2 && half_centred(task, task.u[next]) >= T(0);
-    const bool high_v = shape.cells_v() == 2 && half_centred(task, task.v[next]) >= T(0);
-    const std::size_t cell = task.patch[next] * shape.cells() + high_v * shape.cells_u() + high_u;
-    prefetch_values(task.coefficients + cell * shape.cell_coefficients(),
-                    shape.cell_coefficients());
-  }
-}
-
 template <typename P, typename T>
 SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
   constexpr std::size_t kN = kLanes<vec<T>>;
   const NetShape shape = P::shape(*task.shape);
   for (std::size_t k = 0; k < task.count; k += kN) {
     const std::size_t count = task.count - k < kN ? task.count - k : kN;
-    for (std::size_t i = 0; task.prefetch && i < count; ++i) {
-      prefetch_sample(task, shape, k + i);
-    }
     if constexpr (P::kKnown) {
       if (count == kN) {
         evaluate_block<P, vec<T>>(task, shape, k, kN);
         continue;
       }
+    }
+    for (std::size_t i = 0; task.prefetch && i < count; ++i) {
+      prefetch_sample(task, shape, k + i);
     }
     evaluate_together<P::kDepth, P::kWeighted>(task, k, count);
   }

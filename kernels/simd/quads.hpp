@@ -46,23 +46,6 @@ SIMDBEZIER_INLINE void load_three_quads(const float* first, std::size_t step, ve
 }
 #endif
 
-/// Has a value computed here. Compilers would move the arithmetic behind it into the branches that
-/// use the value, but not the loads before it, and spill all that those have brought.
-template <typename V>
-SIMDBEZIER_INLINE void compute_here(V& value) {
-#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
-  typename V::register_type bits = value;
-  asm volatile("" : "+v"(bits));
-  value = V(bits);
-#elif defined(SIMDBEZIER_KERNELS_NEON64)
-  typename V::register_type bits = value;
-  asm volatile("" : "+w"(bits));
-  value = V(bits);
-#else
-  static_cast<void>(value);
-#endif
-}
-
 /// Loads lane q of chunk[j] from the j-th 128 bits of the 64 bytes at from[q]. It takes halves of
 /// cache lines and one permutation a register: whole lines would need two.
 template <typename V>

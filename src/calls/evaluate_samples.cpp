@@ -38,8 +38,7 @@ public:
                          scratch == nullptr ? nullptr : scratch + index_bytes());
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t first = piece * pieces_.length;
-      const std::size_t left = samples_.patch.size() - first;
-      const std::size_t count = std::min(pieces_.length, left);
+      const std::size_t count = std::min(pieces_.length, samples_.patch.size() - first);
       SampleTarget<T> to{delivery.begin(first), outputs_.out().status_at(first)};
       if (to.status != nullptr) {
         std::fill_n(to.status, count, SampleStatus::regular);
@@ -48,7 +47,7 @@ public:
         to.curvature[c] = outputs_.out().curvature_at(c, first);
       }
       executed = evaluator.run({samples_.patch.data() + first, samples_.u.data() + first,
-                                samples_.v.data() + first, count, left, samples_.parameters},
+                                samples_.v.data() + first, count, samples_.parameters},
                                to);
       delivery.end(count);
     }

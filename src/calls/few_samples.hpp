@@ -140,7 +140,7 @@ private:
     alignas(64) T values[kVectorOutputs][3][kMost];
     ScatteredTask<T> task; // written below: zeros would take as long as a sample
     set_half_centring(samples_.parameters, task);
-    task.count = task.patches_known = (count() + table.lanes - 1) / table.lanes * table.lanes;
+    task.count = (count() + table.lanes - 1) / table.lanes * table.lanes;
     for (std::size_t k = 0; k < task.count; ++k) {
       const bool given = k < count();
       patch[k] = samples_.patch[given ? k : count() - 1];
@@ -163,8 +163,7 @@ private:
         task.out[groups_[k].number].component[c] = values[k][c];
       }
     }
-    const bool any_shape = table.compact || !bucket.shape.is_bicubic();
-    (any_shape ? table.shapes->scattered : table.scattered)(task);
+    table.shapes->scattered(task);
     for (std::size_t k = 0; k < group_count_; ++k) {
       const Vectors<T>& to = *groups_[k].vectors;
       for (std::size_t n = 0; n < count(); ++n) {

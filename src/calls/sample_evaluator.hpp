@@ -18,7 +18,6 @@ struct SamplePiece {
   const T* u;
   const T* v;
   std::size_t count;
-  std::size_t known; ///< how many of `patch` may be read: those of later pieces as well
   Parameters parameters;
 };
 
@@ -66,7 +65,7 @@ private:
         index_[last] = static_cast<std::uint32_t>(place.index);
       }
       SamplePiece<T> part = piece;
-      part.count = part.known = last - k;
+      part.count = last - k;
       executed = run_bucket(set.buckets[bucket], index_ + k, part, k, to);
       k = last;
     }
@@ -85,7 +84,6 @@ private:
     task.v = piece.v + at;
     set_half_centring(piece.parameters, task);
     task.count = piece.count;
-    task.patches_known = piece.known;
     task.prefetch = pays_to_prefetch(patches, false);
     task.resolve_normal = resolve_normal<T>;
     task.watertight = kernels_.watertight;

@@ -1,6 +1,5 @@
 // Chooses the kernels that a call on patches runs. What they have inside for each kind of outputs,
-// patches of any shape and scattered samples choose by the task: kernels/shape/shape_kernel.hpp,
-// kernels/scattered/scattered_kernel.hpp.
+// patches of any shape and scattered samples choose by the task: kernels/shape/shape_kernel.hpp.
 #pragma once
 
 #include <algorithm>
@@ -166,13 +165,7 @@ struct PatchKernels {
   }
   void run(EdgeTask<T>& task) const noexcept { table->meshes->edges(task); }
 
-  void run(ScatteredTask<T>& task) const noexcept {
-    if (choice.any_shape || !task.shape->is_bicubic()) {
-      table->shapes->scattered(task);
-    } else {
-      table->scattered(task);
-    }
-  }
+  void run(ScatteredTask<T>& task) const noexcept { table->shapes->scattered(task); }
 
 private:
   [[nodiscard]] bool has_no_origins() const noexcept { return set->buckets[0].origins == nullptr; }

@@ -121,7 +121,6 @@ struct ScatteredTask : SampleTask<T> {
   T shift;
   T scale;
   std::size_t count;
-  std::size_t patches_known; ///< how many of `patch` may be read: those of later tasks as well
   T common_floor; ///< no patch has a higher normal_floor; infinity where they differ much
 };
 
@@ -224,7 +223,6 @@ struct KernelTable {
   bool compact;
   bool puts_records; ///< whether usual outputs' grid kernels put records together
   void (*grid[kOutputSets])(GridTask<T>& task);
-  void (*scattered)(ScatteredTask<T>& task);
   void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
   void (*fence)();                     ///< completes streaming stores
   /// Stores whole registers one behind the other, to see what stores across lines cost; null where
