@@ -385,6 +385,51 @@ SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size
   evaluate_block<P, vec<T>>(task, shape, k, count);
 }
 
+/// Evaluates the positions of two registers of samples inside of one bicubic patch, which share the
+/// loads of coefficients: with one of them, loads would be the limit. Returns whether the samples
+/// from number k on are such.
+template <typename T>
+SIMDBEZIER_PART bool evaluate_two(const ScatteredTask<T>& task, std::size_t k) {
+  using V = vec<T>;
+  constexpr std::size_t kN = kLanes<V>;
+  const Order<kOrder> order(kOrder);
+  const std::uint32_t* const patch = task.patch + k;
+  if (k + 2 * kN > task.count || task.origins != nullptr || !all_equal<2 * kN>(patch, *patch)) {
+    return false;
+  }
+  V x[2];
+  V y[2];
+  MaskOf<V> inside(true);
+  repeat<2>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+    x[r] = half_centred(task, load_vector<V>(task.u + k + r * kN));
+    y[r] = half_centred(task, load_vector<V>(task.v + k + r * kN));
+    const MaskOf<V> inside_u = are_inside(x[r]);
+    const MaskOf<V> inside_v = are_inside(y[r]);
+    inside = inside & inside_u & inside_v;
+  });
+  if (!all_of<V>(inside)) {
+    return false;
+  }
+  const T* matrix = task.coefficients + *patch * detail::kCoefficients;
+  for (T* const plane : task.out[output_index(Output::position)].component) {
+    V power[2][kOrder];
+    repeat<kOrder>([&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA {
+      const auto load = [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        return broadcast<V>(matrix[i * kOrder + l]);
+      };
+      Series<V> s[2];
+      horner_rows<0, 2>(order, x, load, s);
+      repeat<2>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA { power[r][l] = s[r].value; });
+    });
+    matrix += kOrder * kOrder;
+    repeat<2>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+      const auto load = [&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA { return power[r][l]; };
+      store_vector(plane + k + r * kN, row_series<0>(order, y[r], load).value);
+    });
+  }
+  return true;
+}
+
 template <typename P, typename T>
 SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
   constexpr std::size_t kN = kLanes<vec<T>>;
@@ -392,6 +437,12 @@ SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
   for (std::size_t k = 0; k < task.count; k += kN) {
     const std::size_t count = task.count - k < kN ? task.count - k : kN;
     if constexpr (P::kKnown) {
+      if constexpr (P::kDepth == 0 && !P::kWeighted) {
+        if (task.out[output_index(Output::position)].wanted() && evaluate_two(task, k)) {
+          k += kN;
+          continue;
+        }
+      }
       if (count == kN) {
         evaluate_block<P, vec<T>>(task, shape, k, kN);
         continue;
