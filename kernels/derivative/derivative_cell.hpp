@@ -12,15 +12,6 @@ using detail::DerivativeTask;
 /// The place of a sample in a cell, along one direction.
 enum Side : std::size_t { kInside, kLowEnd, kHighEnd, kSides };
 
-template <typename T>
-SIMDBEZIER_PART Cell<T> cell_of(const DerivativeTask<T>& task, std::size_t patch,
-                                std::size_t index) {
-  const NetShape& shape = *task.shape;
-  const std::size_t at = patch * shape.cells() + index;
-  return {task.coefficients + at * shape.cell_coefficients(), task.edges + at * shape.cell_edges(),
-          task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
-}
-
 /// Computes Taylor coefficients of single channels and of quotients, at the local x, y.
 template <typename V>
 class CellDerivatives {

@@ -90,9 +90,9 @@ private:
     const V y = load_vector<V>(samples.y);
     const MaskOf<V> finite = (x == x) & (y == y);
     const NetShape& shape = *task_.shape;
-    const CellDerivatives<V> cell(task_, cell_of(task_, patch_, place / (kSides * kSides)),
-                                  static_cast<Side>(place % kSides),
-                                  static_cast<Side>(place / kSides % kSides), x, y);
+    const CellDerivatives<V> cell(
+        task_, cell_of<T>(task_, shape, patch_, place / (kSides * kSides)),
+        static_cast<Side>(place % kSides), static_cast<Side>(place / kSides % kSides), x, y);
     const std::size_t components = static_cast<std::size_t>(shape.components);
     for (std::size_t c = 0; c < 3 && task_.first_component + c < components; ++c) {
       TaylorTable<V> derivatives;

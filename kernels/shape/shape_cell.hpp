@@ -74,6 +74,15 @@ struct Cell {
   const T* origins; ///< null where the set has none
 };
 
+/// Returns a cell of a patch. Task is any that holds the arrays of a set.
+template <typename T, typename Task>
+SIMDBEZIER_PART Cell<T> cell_of(const Task& task, const NetShape& shape, std::size_t patch,
+                                std::size_t index) {
+  const std::size_t at = patch * shape.cells() + index;
+  return {task.coefficients + at * shape.cell_coefficients(), task.edges + at * shape.cell_edges(),
+          task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
+}
+
 /// Two cells side by side in u (or the same one twice).
 template <typename T>
 struct CellRow {
@@ -81,22 +90,11 @@ struct CellRow {
   Cell<T> high;
 
   SIMDBEZIER_PART CellRow(Cell<T> of_low, Cell<T> of_high) : low(of_low), high(of_high) {}
-  /// Task is any that holds the arrays of a set.
   template <typename Task>
   SIMDBEZIER_PART CellRow(const Task& task, const NetShape& shape, std::size_t patch,
                           std::size_t row)
-      : low(cell(task, shape, patch, row * shape.cells_u())),
-        high(cell(task, shape, patch, row * shape.cells_u() + shape.cells_u() - 1)) {}
-
-private:
-  template <typename Task>
-  static SIMDBEZIER_PART Cell<T> cell(const Task& task, const NetShape& shape, std::size_t patch,
-                                      std::size_t index) {
-    const std::size_t at = patch * shape.cells() + index;
-    return {task.coefficients + at * shape.cell_coefficients(),
-            task.edges + at * shape.cell_edges(),
-            task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
-  }
+      : low(cell_of<T>(task, shape, patch, row * shape.cells_u())),
+        high(cell_of<T>(task, shape, patch, row * shape.cells_u() + shape.cells_u() - 1)) {}
 };
 
 /// The cells of a patch, row by row.

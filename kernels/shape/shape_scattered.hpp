@@ -42,15 +42,12 @@ struct SampleLanes {
   using T = ScalarOf<V>;
   static constexpr std::size_t kN = kLanes<V>;
 
-  std::size_t first;
-  std::size_t count;
   const std::uint32_t* patch; ///< of each lane
   V x;                        ///< half-centred; of a single sample nan where it is not finite
   V y;
 
-  SIMDBEZIER_PART SampleLanes(const ScatteredTask<T>& task, std::size_t first_sample,
-                              std::size_t samples)
-      : first(first_sample), count(samples), patch(task.patch + first) {
+  SIMDBEZIER_PART SampleLanes(const ScatteredTask<T>& task, std::size_t first, std::size_t count)
+      : patch(task.patch + first) {
     const T* u = task.u + first;
     const T* v = task.v + first;
     if (!kSinglesApart && count == 1) {
