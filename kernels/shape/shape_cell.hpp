@@ -7,33 +7,6 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::NetShape;
 
-/// Which lanes are on the edges u = 0 and u = 1 of their cells, edge by edge, where PairSelector
-/// has both at once: hardly any register has lanes on both, so that one of them need not be looked
-/// at.
-template <typename V>
-struct EdgeLanes {
-  MaskOf<V> lanes[2];
-  bool any[2];
-
-  SIMDBEZIER_PART EdgeLanes(V local, bool watertight)
-      : lanes{local == broadcast<V>(ScalarOf<V>(-0.5)), local == broadcast<V>(ScalarOf<V>(0.5))},
-        any{watertight && any_of<V>(lanes[0]), watertight && any_of<V>(lanes[1])} {}
-
-  /// Replaces these lanes of kCount registers by values of their edges, which stand in memory as
-  /// pairs (u = 0, u = 1), four values apart. value(i) is register i.
-  template <std::size_t kCount, typename Value>
-  SIMDBEZIER_INLINE void replace(const ScalarOf<V>* pairs, const Value& value) const {
-    repeat<2>([&](std::size_t edge) SIMDBEZIER_INLINE_LAMBDA {
-      if (any[edge]) {
-        const MaskOf<V> mask = lanes[edge];
-        repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-          value(i) = select_where<V>(mask, broadcast<V>(pairs[i * 4 + edge]), value(i));
-        });
-      }
-    });
-  }
-};
-
 /// Columns of a patch: where in which cell they are.
 template <typename V>
 struct CellColumns {
@@ -41,12 +14,11 @@ struct CellColumns {
   MaskOf<V> low;   ///< in the cell of lower u
   bool any_low;
   bool any_high;
-  EdgeLanes<V> on_edges;
 
   SIMDBEZIER_PART CellColumns(V half_centred, std::size_t cells, bool watertight)
       : local(cells == 1 ? half_centred : cell_parameter(half_centred), watertight),
         low(half_centred < broadcast<V>(ScalarOf<V>(0))), any_low(cells == 1 || any_of<V>(low)),
-        any_high(cells == 2 && !all_of<V>(low)), on_edges(local.x, watertight) {}
+        any_high(cells == 2 && !all_of<V>(low)) {}
 };
 
 /// Returns the edge v = const of its cell that a local parameter is on, or kEdges where it is on

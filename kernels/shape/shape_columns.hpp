@@ -225,14 +225,10 @@ private:
           return select_where<V>(columns_.low, selector.replace(inside, pair),
                                  selector.replace(inside, pair + edges_to_high));
         });
-      } else if constexpr (P::kKnown) { // whose masks are in registers
+      } else {
         replace_each<kCount>(s, [&](V inside, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
           return columns_.local.edges.replace(inside, edges + i * 4 + detail::kEdgeU0);
         });
-      } else {
-        columns_.on_edges.template replace<kCount>(
-            edges + detail::kEdgeU0,
-            [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA -> V& { return s[i].value; });
       }
     };
     build_powers<kCount>(matrix, load, replace, to[0] + first);

@@ -91,9 +91,9 @@ public:
       const T* const edges = columns_.any_low ? row_->low.edges : row_->high.edges;
       horner_positions(edges + powers, position,
                        [](const T* c) SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(*c); });
-      columns_.on_edges.template replace<3>(
-          own_address(edges + corners),
-          [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA -> V& { return position[i]; });
+      repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        position[i] = columns_.local.edges.replace(position[i], edges + corners + i * 4);
+      });
     }
     return true;
   }
