@@ -33,6 +33,15 @@ SIMDBEZIER_INLINE void prefetch_line(const void* address) {
     __builtin_prefetch(address);
   }
 }
+/// The same, but the address stays base, index and constant in the instruction instead of taking a
+/// register.
+SIMDBEZIER_INLINE void prefetch_operand(const void* address) {
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
+  asm volatile("prefetcht0 %0" : : "m"(*static_cast<const char*>(address)));
+#else
+  prefetch_line(address);
+#endif
+}
 /// Asks for `count` values that are needed soon.
 template <typename T>
 SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {

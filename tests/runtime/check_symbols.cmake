@@ -45,7 +45,7 @@ foreach(object IN LISTS OBJECTS)
   if(object MATCHES "shape_f")
     set(prefetching scatter_shape)
   elseif(object MATCHES "bicubic_kernels" AND NOT COMPACT)
-    set(prefetching sweep_tile evaluate_block PagesAhead drain_owed)
+    set(prefetching sweep_tile PagesAhead drain_owed)
   endif()
   if(prefetching)
     execute_process(
