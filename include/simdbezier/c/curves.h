@@ -19,8 +19,7 @@ typedef struct simdbezier_curve_grid {
 } simdbezier_curve_grid;
 
 static inline simdbezier_curve_grid simdbezier_uniform_curve_grid(size_t n) {
-  simdbezier_curve_grid grid = {sizeof grid, 0, 0, 0, 0, 0, 0, 0};
-  grid.n = n;
+  const simdbezier_curve_grid grid = {sizeof grid, n, 0, 0, 0, 0, 0, 0};
   return grid;
 }
 

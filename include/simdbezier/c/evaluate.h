@@ -22,9 +22,7 @@ typedef struct simdbezier_grid {
 } simdbezier_grid;
 
 static inline simdbezier_grid simdbezier_uniform_grid(size_t nu, size_t nv) {
-  simdbezier_grid grid = {sizeof grid, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  grid.nu = nu;
-  grid.nv = nv;
+  const simdbezier_grid grid = {sizeof grid, nu, nv, 0, 0, 0, 0, 0, 0, 0, 0};
   return grid;
 }
 

@@ -13,19 +13,15 @@ typedef struct simdbezier_parameter {
 } simdbezier_parameter;
 
 static inline simdbezier_parameter simdbezier_at(double t) {
-  simdbezier_parameter parameter = {0, 0, 0};
-  parameter.value = t;
+  const simdbezier_parameter parameter = {t, 0, 0};
   return parameter;
 }
 static inline simdbezier_parameter simdbezier_from_end(double complement) {
-  simdbezier_parameter parameter = {0, 0, 1};
-  parameter.value = complement;
+  const simdbezier_parameter parameter = {complement, 0, 1};
   return parameter;
 }
 static inline simdbezier_parameter simdbezier_fraction(int32_t i, int32_t n) {
-  simdbezier_parameter parameter = {0, 0, 0};
-  parameter.value = i;
-  parameter.denominator = n;
+  const simdbezier_parameter parameter = {(double)i, n, 0};
   return parameter;
 }
 
