@@ -19,7 +19,7 @@ simdbezier_add_sources(choice O3 clock.cpp destination.cpp destined_call.cpp lin
                        strategies.cpp width_choice.cpp)
 simdbezier_add_sources(nets O3 adjacency.cpp bases.cpp bounds.cpp edge_rings.cpp iso_points.cpp
                        linear_maps.cpp net_call.cpp net_operations.cpp net_places.cpp
-                       patch_keys.cpp unit_parameter.cpp)
+                       patch_keys.cpp)
 simdbezier_add_sources(splines O3 evaluate_spline_samples.cpp evaluate_splines.cpp
                        extraction_error.cpp locate.cpp pack_splines.cpp spline_factors.cpp
                        spline_knots.cpp spline_list.cpp spline_nets.cpp splines.cpp)

@@ -63,8 +63,7 @@ Status check(std::span<const ControlNets<S>> nets, const Values<EdgeLink>& edges
 template <typename S>
 Status find_adjacency(std::span<const ControlNets<S>> nets, Values<EdgeLink> edges,
                       const RunOptions& options) noexcept try {
-  const Status status = detail::check(nets, edges);
-  if (status != Status::ok) {
+  if (const Status status = detail::check(nets, edges); !status) {
     return status;
   }
   const detail::DefaultFpEnvironment environment;

@@ -3,6 +3,7 @@
 
 #include "src/nets/linear_maps.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -27,12 +28,10 @@ Status check_basis(Basis basis, const ControlNets<T>& nets, bool to_bezier) noex
 template <typename T>
 Report change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Basis basis,
                     bool to_bezier, const RunOptions& options) noexcept {
-  const Status status = check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v);
-  if (status != Status::ok) {
+  if (const Status status = check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v); !status) {
     return {status};
   }
-  const Status fits = check_basis(basis, nets, to_bezier);
-  if (fits != Status::ok) {
+  if (const Status fits = check_basis(basis, nets, to_bezier); !fits) {
     return argument_fault(fits);
   }
   const LinearMap u = basis_map(basis, nets.degree_u, to_bezier);
@@ -59,15 +58,7 @@ Report from_bezier(Basis basis, const ControlNets<T>& nets,
   return detail::change_basis<T>(nets, out, basis, false, options);
 }
 
-#define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API Report to_bezier(Basis, const ControlNets<T>&,                           \
-                                           const std::type_identity_t<MutableNets<T>>&,            \
-                                           const RunOptions&) noexcept;                            \
-  template SIMDBEZIER_API Report from_bezier(Basis, const ControlNets<T>&,                         \
-                                             const std::type_identity_t<MutableNets<T>>&,          \
-                                             const RunOptions&) noexcept;
-SIMDBEZIER_INSTANTIATE(float)
-SIMDBEZIER_INSTANTIATE(double)
-#undef SIMDBEZIER_INSTANTIATE
+SIMDBEZIER_EXPORT_BOTH_TYPES(to_bezier);
+SIMDBEZIER_EXPORT_BOTH_TYPES(from_bezier);
 
 } // namespace simdbezier

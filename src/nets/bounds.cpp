@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -31,8 +32,7 @@ template <typename T>
 Report run_boxes(const ControlNets<T>& nets, int levels, const Boxes<T>& out,
                  const RunOptions& options) noexcept {
   const std::size_t row = nets.components < 0 ? 0 : static_cast<std::size_t>(nets.components);
-  const Status status = check_arrays<T>(nets, out, row);
-  if (status != Status::ok) {
+  if (const Status status = check_arrays<T>(nets, out, row); !status) {
     return {status};
   }
   if (levels < 0 || levels > kMostBoxLevels) {
@@ -82,16 +82,8 @@ Report flatness(const ControlNets<T>& nets, const std::type_identity_t<Values<T>
                               detail::shape_of(nets).control_values(), options);
 }
 
-#define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API Report control_boxes(                                                    \
-      const ControlNets<T>&, const std::type_identity_t<Boxes<T>>&, const RunOptions&) noexcept;   \
-  template SIMDBEZIER_API Report tight_boxes(const ControlNets<T>&, int,                           \
-                                             const std::type_identity_t<Boxes<T>>&,                \
-                                             const RunOptions&) noexcept;                          \
-  template SIMDBEZIER_API Report flatness(                                                         \
-      const ControlNets<T>&, const std::type_identity_t<Values<T>>&, const RunOptions&) noexcept;
-SIMDBEZIER_INSTANTIATE(float)
-SIMDBEZIER_INSTANTIATE(double)
-#undef SIMDBEZIER_INSTANTIATE
+SIMDBEZIER_EXPORT_BOTH_TYPES(control_boxes);
+SIMDBEZIER_EXPORT_BOTH_TYPES(tight_boxes);
+SIMDBEZIER_EXPORT_BOTH_TYPES(flatness);
 
 } // namespace simdbezier

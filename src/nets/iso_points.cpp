@@ -1,6 +1,7 @@
 // See src/nets/iso_points.hpp.
 #include "src/nets/iso_points.hpp"
 
+#include "src/runtime/both_types.hpp"
 #include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
@@ -121,7 +122,6 @@ void form_curve(const IsoTask<S>& task, std::size_t patch, double* points) noexc
   }
 }
 
-template void form_curve(const IsoTask<float>&, std::size_t, double*) noexcept;
-template void form_curve(const IsoTask<double>&, std::size_t, double*) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(form_curve);
 
 } // namespace simdbezier::detail

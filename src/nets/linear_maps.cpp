@@ -100,76 +100,57 @@ LinearMap bezier_to_centred_power(int n) noexcept {
 
 using Pairs = std::initializer_list<LinearMap::Pair>;
 
-/// A cubic's row with its own order of additions.
-void set_row(LinearMap::Row& row, Pairs pairs, double factor, double divisor) noexcept {
-  for (const LinearMap::Pair& pair : pairs) {
-    row.pair[row.pairs++] = pair;
-  }
+/// A row with its own order of additions.
+LinearMap::Row sum(Pairs pairs, double factor, double divisor) noexcept {
+  LinearMap::Row row;
+  std::copy(pairs.begin(), pairs.end(), row.pair);
+  row.pairs = pairs.size();
   row.factor = factor;
   row.divisor = divisor;
+  return row;
+}
+/// One of the values alone.
+LinearMap::Row copy(std::size_t k) noexcept { return sum({{k, k, 1, 0}}, 1, 1); }
+
+LinearMap cubic(const LinearMap::Row (&rows)[4], bool keeps_constants) noexcept {
+  LinearMap map = sized(3);
+  std::copy_n(rows, 4, map.row);
+  map.keeps_constants = keeps_constants;
+  return map;
 }
 
-/// One of the values alone.
-void set_copy(LinearMap::Row& row, std::size_t k) noexcept { set_row(row, {{k, k, 1, 0}}, 1, 1); }
-
 LinearMap hermite_to_bezier() noexcept {
-  LinearMap map = sized(3);
-  set_copy(map.row[0], 0);
-  set_row(map.row[1], {{0, 2, 3, 1}}, 1, 3);
-  set_row(map.row[2], {{1, 3, 3, -1}}, 1, 3);
-  set_copy(map.row[3], 1);
-  return map;
+  return cubic({copy(0), sum({{0, 2, 3, 1}}, 1, 3), sum({{1, 3, 3, -1}}, 1, 3), copy(1)}, false);
 }
 
 LinearMap bezier_to_hermite() noexcept {
-  LinearMap map = sized(3);
-  set_copy(map.row[0], 0);
-  set_copy(map.row[1], 3);
-  set_row(map.row[2], {{0, 1, -1, 1}}, 3, 1);
-  set_row(map.row[3], {{2, 3, -1, 1}}, 3, 1);
-  return map;
+  return cubic({copy(0), copy(3), sum({{0, 1, -1, 1}}, 3, 1), sum({{2, 3, -1, 1}}, 3, 1)}, false);
 }
 
 LinearMap catmull_rom_to_bezier() noexcept {
-  LinearMap map = sized(3);
-  set_copy(map.row[0], 1);
-  set_row(map.row[1], {{0, 2, -1, 1}, {1, 1, 6, 0}}, 1, 6);
-  set_row(map.row[2], {{1, 3, 1, -1}, {2, 2, 6, 0}}, 1, 6);
-  set_copy(map.row[3], 2);
-  map.keeps_constants = true;
-  return map;
+  return cubic({copy(1), sum({{0, 2, -1, 1}, {1, 1, 6, 0}}, 1, 6),
+                sum({{1, 3, 1, -1}, {2, 2, 6, 0}}, 1, 6), copy(2)},
+               true);
 }
 
 LinearMap bezier_to_catmull_rom() noexcept {
-  LinearMap map = sized(3);
-  set_row(map.row[0], {{0, 1, 6, -6}, {3, 3, 1, 0}}, 1, 1);
-  set_copy(map.row[1], 0);
-  set_copy(map.row[2], 3);
-  set_row(map.row[3], {{2, 3, -6, 6}, {0, 0, 1, 0}}, 1, 1);
-  map.keeps_constants = true;
-  return map;
+  return cubic({sum({{0, 1, 6, -6}, {3, 3, 1, 0}}, 1, 1), copy(0), copy(3),
+                sum({{2, 3, -6, 6}, {0, 0, 1, 0}}, 1, 1)},
+               true);
 }
 
 /// Outer points are added first: the last point of a piece and the first point of the next are then
 /// the same sum of the same three points.
 LinearMap b_spline_to_bezier() noexcept {
-  LinearMap map = sized(3);
-  set_row(map.row[0], {{0, 2, 1, 1}, {1, 1, 4, 0}}, 1, 6);
-  set_row(map.row[1], {{1, 2, 4, 2}}, 1, 6);
-  set_row(map.row[2], {{1, 2, 2, 4}}, 1, 6);
-  set_row(map.row[3], {{1, 3, 1, 1}, {2, 2, 4, 0}}, 1, 6);
-  map.keeps_constants = true;
-  return map;
+  return cubic({sum({{0, 2, 1, 1}, {1, 1, 4, 0}}, 1, 6), sum({{1, 2, 4, 2}}, 1, 6),
+                sum({{1, 2, 2, 4}}, 1, 6), sum({{1, 3, 1, 1}, {2, 2, 4, 0}}, 1, 6)},
+               true);
 }
 
 LinearMap bezier_to_b_spline() noexcept {
-  LinearMap map = sized(3);
-  set_row(map.row[0], {{0, 1, 6, -7}, {2, 2, 2, 0}}, 1, 1);
-  set_row(map.row[1], {{1, 2, 2, -1}}, 1, 1);
-  set_row(map.row[2], {{1, 2, -1, 2}}, 1, 1);
-  set_row(map.row[3], {{2, 3, -7, 6}, {1, 1, 2, 0}}, 1, 1);
-  map.keeps_constants = true;
-  return map;
+  return cubic({sum({{0, 1, 6, -7}, {2, 2, 2, 0}}, 1, 1), sum({{1, 2, 2, -1}}, 1, 1),
+                sum({{1, 2, -1, 2}}, 1, 1), sum({{2, 3, -7, 6}, {1, 1, 2, 0}}, 1, 1)},
+               true);
 }
 
 } // namespace
@@ -198,7 +179,7 @@ LinearMap hodograph_map(int degree) noexcept {
   LinearMap map = sized(degree > 1 ? degree - 1 : 1);
   for (std::size_t i = 0; i < map.rows; ++i) {
     const std::size_t k = degree > 1 ? i : 0;
-    set_row(map.row[i], {{k, k + 1, -1, 1}}, degree, 1);
+    map.row[i] = sum({{k, k + 1, -1, 1}}, degree, 1);
   }
   return map;
 }

@@ -115,9 +115,8 @@ NetView<S> view_of(const MutableNets<S>& nets) noexcept {
 
 template <typename S>
 Status check_input(const ControlNets<S>& nets) noexcept {
-  const Status shape = check_shape(nets);
-  if (shape != Status::ok) {
-    return shape;
+  if (const Status status = check_shape(nets); !status) {
+    return status;
   }
   if (nets.points == nullptr && nets.count > 0) {
     return Status::null_input;

@@ -101,9 +101,8 @@ template <typename Table, typename Task>
 Status run_net_kernel(NetKernel<Task> Table::*kernel, const Task& task, std::size_t count,
                       std::size_t values, const RunOptions& options) noexcept {
   Isa isa = Isa::automatic;
-  const Status runs = resolve_isa(options.isa, isa);
-  if (runs != Status::ok) {
-    return runs;
+  if (const Status status = resolve_isa(options.isa, isa); !status) {
+    return status;
   }
   const NetKernel<Task> run = separate_table<Table>(isa).*kernel;
   return run_blocks(lane_groups(count), duration_of(count, 100), options, values * kLineBytes,
@@ -113,21 +112,23 @@ Status run_net_kernel(NetKernel<Task> Table::*kernel, const Task& task, std::siz
                     });
 }
 
-/// The way of all operations on nets whose views have been checked: find faults, then compute.
+/// What operations on nets whose views have been checked begin with: which instruction set runs,
+/// and whether values are sound.
+template <typename T>
+Report prepare(const ControlNets<T>& nets, const RunOptions& options, bool signed_weights,
+               Isa& isa) noexcept {
+  const Status runs = resolve_isa(options.isa, isa);
+  return runs ? find_fault(nets, options.threads, signed_weights) : Report{runs};
+}
+
+/// All steps of such an operation.
 template <typename T, typename Task>
 Report compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetOperationTable<T>::*kernel,
                     const Task& task, std::size_t values, const RunOptions& options,
                     bool signed_weights = false) noexcept {
   Isa isa = Isa::automatic;
-  const Status runs = resolve_isa(options.isa, isa);
-  if (runs != Status::ok) {
-    return {runs};
-  }
-  const Report checked = find_fault(nets, options.threads, signed_weights);
-  if (!checked) {
-    return checked;
-  }
-  return {run_net_kernel(kernel, task, nets.count, values, options)};
+  const Report sound = prepare(nets, options, signed_weights, isa);
+  return sound ? Report{run_net_kernel(kernel, task, nets.count, values, options)} : sound;
 }
 
 } // namespace simdbezier::detail

@@ -6,6 +6,7 @@
 
 #include "src/nets/linear_maps.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -44,9 +45,8 @@ Report run_split(const ControlNets<T>& nets, const UnitParameter<T>* u, const Un
     }
   }
   for (const UnitParameter<T>* const at : {u, v}) {
-    const Status status = at == nullptr ? Status::ok : check_parameter(nets, *at);
-    if (status != Status::ok) {
-      return argument_fault(status);
+    if (const Status usable = at == nullptr ? Status::ok : check_parameter(nets, *at); !usable) {
+      return argument_fault(usable);
     }
   }
   task.in = view_of(nets);
@@ -61,16 +61,15 @@ Report run_split(const ControlNets<T>& nets, const UnitParameter<T>* u, const Un
   return compute_nets(nets, &NetOperationTable<T>::split, task, 3 * net_values(nets), options);
 }
 
+/// Whether a parameter is 0; of a mirrored one, whether it was 1.
 template <typename T>
-bool is_whole(const UnitParameter<T>& from, const UnitParameter<T>& to) noexcept {
-  return from.t() == 0 && to.complement() == 0 && from.complement() == 1 && to.t() == 1;
+bool is_end(const UnitParameter<T>& at) noexcept {
+  return at.t() == 0 && at.complement() == 1;
 }
-
 template <typename T>
 Support support_between(int degree, const UnitParameter<T>& from,
                         const UnitParameter<T>& to) noexcept {
-  return support_of_piece(degree, from.t() == 0 && from.complement() == 1,
-                          to.complement() == 0 && to.t() == 1);
+  return support_of_piece(degree, is_end(from), is_end(to.mirrored()));
 }
 
 template <typename T>
@@ -89,13 +88,8 @@ template <typename T>
 Report run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
                 const MutableNets<T>& out, const RunOptions& options) noexcept {
   Isa isa = Isa::automatic;
-  const Status runs = resolve_isa(options.isa, isa);
-  if (runs != Status::ok) {
-    return {runs};
-  }
-  const Report checked = find_fault(original, options.threads);
-  if (!checked) {
-    return checked;
+  if (const Report sound = prepare(original, options, false, isa); !sound) {
+    return sound;
   }
   const std::ptrdiff_t channels = static_cast<std::ptrdiff_t>(shape_of(nets).channels());
   const auto copy_patch = [&](std::ptrdiff_t patch) {
@@ -126,36 +120,29 @@ template <typename T>
 Report run_halves(const ControlNets<T>& nets, const UnitParameter<T>* u, const UnitParameter<T>* v,
                   const MutableNets<T>& low, const MutableNets<T>& high,
                   const RunOptions& options) noexcept {
-  const Status status = check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
-  if (status != Status::ok) {
+  if (const Status status = check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
+      !status) {
     return {status};
   }
   const auto high_of = [&](const auto* cut) { return cut == nullptr ? nullptr : &high; };
   return run_split<T>(nets, u, v, {&low, high_of(u), high_of(v), nullptr}, options);
 }
 
-/// Checks as check_nets() does, where there is one result.
-template <typename T>
-Status check_result(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
-                    int degree_v) noexcept {
-  return check_nets<T>(nets, {&out}, degree_u, degree_v);
-}
-
 /// The nets as `view` sees them, which is with these degrees.
 template <typename T, typename View>
 Report run_view(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u, int degree_v,
                 View view, const RunOptions& options) noexcept {
-  const Status status = check_result<T>(nets, out, degree_u, degree_v);
-  return status != Status::ok ? Report{status} : run_copy<T>(nets, view(nets), out, options);
+  const Status status = check_nets<T>(nets, {&out}, degree_u, degree_v);
+  return status ? run_copy<T>(nets, view(nets), out, options) : Report{status};
 }
 
 /// Derivatives of these orders, 0 or 1; lines keep degree 1.
 template <typename T>
 Report run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int order_u,
                      int order_v, const RunOptions& options) noexcept {
-  const Status status = check_result<T>(nets, out, std::max(nets.degree_u - order_u, 1),
-                                        std::max(nets.degree_v - order_v, 1));
-  if (status != Status::ok) {
+  if (const Status status = check_nets<T>(nets, {&out}, std::max(nets.degree_u - order_u, 1),
+                                          std::max(nets.degree_v - order_v, 1));
+      !status) {
     return {status};
   }
   if (nets.weights != Weights::none) {
@@ -168,6 +155,20 @@ Report run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int 
 }
 
 } // namespace
+
+template <typename T>
+T one_less(T t) noexcept {
+  return T(1) - t;
+}
+
+template <typename T>
+T quotient(std::int64_t i, std::int64_t n) noexcept {
+  return static_cast<T>(i) / static_cast<T>(n);
+}
+
+SIMDBEZIER_EXPORT_BOTH_TYPES(one_less);
+SIMDBEZIER_EXPORT_BOTH_TYPES(quotient);
+
 } // namespace detail
 
 template <typename T>
@@ -192,34 +193,32 @@ Report split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
              const RunOptions& options) noexcept {
   const Status status = detail::check_nets<T>(nets, {&out[0], &out[1], &out[2], &out[3]},
                                               nets.degree_u, nets.degree_v);
-  if (status != Status::ok) {
-    return {status};
-  }
-  return detail::run_split<T>(nets, &u, &v, {&out[0], &out[1], &out[2], &out[3]}, options);
+  return status ? detail::run_split<T>(nets, &u, &v, {&out[0], &out[1], &out[2], &out[3]}, options)
+                : Report{status};
 }
 
 template <typename T>
 Report segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatch<T>>& piece,
                const std::type_identity_t<MutableNets<T>>& out,
                const RunOptions& options) noexcept {
-  const Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
-  if (status != Status::ok) {
+  if (const Status status = detail::check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v);
+      !status) {
     return {status};
   }
   for (const UnitParameter<T>* const at : {&piece.u0, &piece.u1, &piece.v0, &piece.v1}) {
-    const Status usable = detail::check_parameter(nets, *at);
-    if (usable != Status::ok) {
+    if (const Status usable = detail::check_parameter(nets, *at); !usable) {
       return detail::argument_fault(usable);
     }
   }
-  const detail::SegmentTask<T> task{detail::view_of(nets),
-                                    detail::view_of(out),
-                                    !detail::is_whole(piece.u0, piece.u1),
-                                    !detail::is_whole(piece.v0, piece.v1),
-                                    {detail::weighting(piece.u0), detail::weighting(piece.u1)},
-                                    {detail::weighting(piece.v0), detail::weighting(piece.v1)},
-                                    detail::support_between(nets.degree_u, piece.u0, piece.u1),
-                                    detail::support_between(nets.degree_v, piece.v0, piece.v1)};
+  const detail::SegmentTask<T> task{
+      detail::view_of(nets),
+      detail::view_of(out),
+      !detail::is_end(piece.u0) || !detail::is_end(piece.u1.mirrored()),
+      !detail::is_end(piece.v0) || !detail::is_end(piece.v1.mirrored()),
+      {detail::weighting(piece.u0), detail::weighting(piece.u1)},
+      {detail::weighting(piece.v0), detail::weighting(piece.v1)},
+      detail::support_between(nets.degree_u, piece.u0, piece.u1),
+      detail::support_between(nets.degree_v, piece.v0, piece.v1)};
   return detail::compute_nets(nets, &detail::NetOperationTable<T>::segment, task,
                               4 * detail::net_values(nets), options);
 }
@@ -230,11 +229,11 @@ Report elevate(const ControlNets<T>& nets, const std::type_identity_t<MutableNet
   Status status = detail::check_input(nets);
   const bool rises = out.degree_u >= nets.degree_u && out.degree_u <= kMostDegree &&
                      out.degree_v >= nets.degree_v && out.degree_v <= kMostDegree;
-  if (status == Status::ok) {
-    status =
-        rises ? detail::check_result<T>(nets, out, out.degree_u, out.degree_v) : Status::bad_degree;
+  if (status) {
+    status = rises ? detail::check_nets<T>(nets, {&out}, out.degree_u, out.degree_v)
+                   : Status(Status::bad_degree);
   }
-  if (status != Status::ok) {
+  if (!status) {
     return {status};
   }
   return detail::run_map<T>(nets, out, detail::elevation_map(nets.degree_u, out.degree_u),
@@ -271,32 +270,15 @@ Report transpose(const ControlNets<T>& nets, const std::type_identity_t<MutableN
   return detail::run_view<T>(nets, out, nets.degree_v, nets.degree_u, transposed<T>, options);
 }
 
-#define SIMDBEZIER_INSTANTIATE_MAP(function, T)                                                    \
-  template SIMDBEZIER_API Report function(const ControlNets<T>&,                                   \
-                                          const std::type_identity_t<MutableNets<T>>&,             \
-                                          const RunOptions&) noexcept;
-#define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API Report split_u(                                                          \
-      const ControlNets<T>&, AtParameter<T>, const std::type_identity_t<MutableNets<T>>&,          \
-      const std::type_identity_t<MutableNets<T>>&, const RunOptions&) noexcept;                    \
-  template SIMDBEZIER_API Report split_v(                                                          \
-      const ControlNets<T>&, AtParameter<T>, const std::type_identity_t<MutableNets<T>>&,          \
-      const std::type_identity_t<MutableNets<T>>&, const RunOptions&) noexcept;                    \
-  template SIMDBEZIER_API Report split(const ControlNets<T>&, AtParameter<T>, AtParameter<T>,      \
-                                       const std::array<std::type_identity_t<MutableNets<T>>, 4>&, \
-                                       const RunOptions&) noexcept;                                \
-  template SIMDBEZIER_API Report segment(                                                          \
-      const ControlNets<T>&, const std::type_identity_t<SubPatch<T>>&,                             \
-      const std::type_identity_t<MutableNets<T>>&, const RunOptions&) noexcept;                    \
-  SIMDBEZIER_INSTANTIATE_MAP(elevate, T)                                                           \
-  SIMDBEZIER_INSTANTIATE_MAP(hodograph_u, T)                                                       \
-  SIMDBEZIER_INSTANTIATE_MAP(hodograph_v, T)                                                       \
-  SIMDBEZIER_INSTANTIATE_MAP(reverse_u, T)                                                         \
-  SIMDBEZIER_INSTANTIATE_MAP(reverse_v, T)                                                         \
-  SIMDBEZIER_INSTANTIATE_MAP(transpose, T)
-SIMDBEZIER_INSTANTIATE(float)
-SIMDBEZIER_INSTANTIATE(double)
-#undef SIMDBEZIER_INSTANTIATE
-#undef SIMDBEZIER_INSTANTIATE_MAP
+SIMDBEZIER_EXPORT_BOTH_TYPES(split_u);
+SIMDBEZIER_EXPORT_BOTH_TYPES(split_v);
+SIMDBEZIER_EXPORT_BOTH_TYPES(split);
+SIMDBEZIER_EXPORT_BOTH_TYPES(segment);
+SIMDBEZIER_EXPORT_BOTH_TYPES(elevate);
+SIMDBEZIER_EXPORT_BOTH_TYPES(hodograph_u);
+SIMDBEZIER_EXPORT_BOTH_TYPES(hodograph_v);
+SIMDBEZIER_EXPORT_BOTH_TYPES(reverse_u);
+SIMDBEZIER_EXPORT_BOTH_TYPES(reverse_v);
+SIMDBEZIER_EXPORT_BOTH_TYPES(transpose);
 
 } // namespace simdbezier

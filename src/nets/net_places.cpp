@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/sort.hpp"
 #include "src/storage/net_shape.hpp"
 
@@ -121,7 +122,6 @@ bool collide(const Lattice& a, const Lattice& b, std::ptrdiff_t value_bytes) noe
   return reaches(low, high, distance, 4);
 }
 
-template bool lattice_of(const ControlNets<float>&, Lattice&) noexcept;
-template bool lattice_of(const ControlNets<double>&, Lattice&) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(lattice_of);
 
 } // namespace simdbezier::detail

@@ -6,6 +6,7 @@
 #include "src/nets/edge_keys.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -80,9 +81,6 @@ Status find_patch_keys(std::span<const ControlNets<S>> nets, std::span<PatchKeys
   return Status::out_of_memory;
 }
 
-template SIMDBEZIER_API Status find_patch_keys(std::span<const ControlNets<float>>,
-                                               std::span<PatchKeys>, const RunOptions&) noexcept;
-template SIMDBEZIER_API Status find_patch_keys(std::span<const ControlNets<double>>,
-                                               std::span<PatchKeys>, const RunOptions&) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(find_patch_keys);
 
 } // namespace simdbezier
