@@ -38,14 +38,11 @@
 //              of splines without a set, meets_tolerance(), derivative_divisor().
 #pragma once
 
-#include <simdbezier/c/curves.h>         // IWYU pragma: export
-#include <simdbezier/c/evaluate.h>       // IWYU pragma: export
-#include <simdbezier/c/mesh_parts.h>     // IWYU pragma: export
-#include <simdbezier/c/meshes.h>         // IWYU pragma: export
-#include <simdbezier/c/models.h>         // IWYU pragma: export
-#include <simdbezier/c/nets.h>           // IWYU pragma: export
-#include <simdbezier/c/polylines.h>      // IWYU pragma: export
-#include <simdbezier/c/sets.h>           // IWYU pragma: export
-#include <simdbezier/c/splines.h>        // IWYU pragma: export
-#include <simdbezier/c/types.h>          // IWYU pragma: export
-#include <simdbezier/c/vertex_formats.h> // IWYU pragma: export
+#include <simdbezier/c/curves.h>   // IWYU pragma: export
+#include <simdbezier/c/evaluate.h> // IWYU pragma: export
+#include <simdbezier/c/meshes.h>   // IWYU pragma: export
+#include <simdbezier/c/models.h>   // IWYU pragma: export
+#include <simdbezier/c/nets.h>     // IWYU pragma: export
+#include <simdbezier/c/sets.h>     // IWYU pragma: export
+#include <simdbezier/c/splines.h>  // IWYU pragma: export
+#include <simdbezier/c/types.h>    // IWYU pragma: export

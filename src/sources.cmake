@@ -47,8 +47,8 @@ simdbezier_add_sources(exact O3 prime_field.cpp)
 simdbezier_add_sources(exact O2 normal_fallback.cpp tangent_fallback.cpp)
 simdbezier_add_sources(pack O2 iso_curves.cpp pack.cpp pack_curves.cpp set_layout.cpp)
 simdbezier_add_sources(mesh O2 tessellate.cpp)
-simdbezier_add_sources(c_api O3 curves.cpp evaluate.cpp library.cpp mesh_parts.cpp primitives.cpp)
-simdbezier_add_sources(c_api Os meshes.cpp models.cpp nets.cpp polylines.cpp rates.cpp sets.cpp
+simdbezier_add_sources(c_api O3 curves.cpp evaluate.cpp library.cpp primitives.cpp)
+simdbezier_add_sources(c_api Os meshes.cpp models.cpp nets.cpp rates.cpp sets.cpp
                        splines.cpp vertices.cpp)
 
 # Square roots that could set errno are not vectorised, and normals at shared vertices need many.

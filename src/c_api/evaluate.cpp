@@ -8,7 +8,6 @@ namespace {
 
 constexpr Path kSet{"set"};
 constexpr Path kGrid{"grid"};
-constexpr Path kGrids{"grids"};
 constexpr Path kSamples{"samples"};
 
 static_assert(SIMDBEZIER_SAMPLE_NON_FINITE == static_cast<int>(SampleStatus::non_finite));
@@ -51,11 +50,11 @@ simdbezier_status evaluate_at(const char* function, const Handle* set, const Whe
 
 /// How many samples a set has; 0 where something is wrong.
 template <typename Handle, typename Where>
-std::size_t samples_at(const Handle* set, const Where* where, const Path& path) noexcept {
+std::size_t samples_at(const Handle* set, const Where* where) noexcept {
   return size_or_zero([&] {
     return with_object(set, kSet,
                        [&]<template <typename> typename Set, typename T>(const Set<T>& members) {
-                         return sample_count(members, where_of<T>(read(where, path)));
+                         return sample_count(members, where_of<T>(read(where, {})));
                        });
   });
 }
@@ -148,66 +147,30 @@ float simdbezier_to_centred_f32(double u) { return to_centred<float>(u); }
 
 double simdbezier_to_centred_f64(double u) { return to_centred<double>(u); }
 
-simdbezier_status simdbezier_evaluate_grid(const simdbezier_patch_set* set,
-                                           const simdbezier_grid* grid,
-                                           const simdbezier_outputs* out,
-                                           const simdbezier_options* options) {
-  return evaluate_at(__func__, set, grid, kGrid, out, options);
-}
+// evaluate() at each kind of samples.
+#define SIMDBEZIER_EVALUATE(set_type, out_type, where_type, where)                                 \
+  simdbezier_status simdbezier_evaluate_##where_type(                                              \
+      const simdbezier_##set_type* set, const simdbezier_##where_type* where,                      \
+      const simdbezier_##out_type* out, const simdbezier_options* options) {                       \
+    return evaluate_at(__func__, set, where, {#where}, out, options);                              \
+  }
+SIMDBEZIER_EVALUATE(patch_set, outputs, grid, grid)
+SIMDBEZIER_EVALUATE(patch_set, outputs, patch_grids, grids)
+SIMDBEZIER_EVALUATE(patch_set, outputs, samples, samples)
+SIMDBEZIER_EVALUATE(curve_set, curve_outputs, curve_grid, grid)
+SIMDBEZIER_EVALUATE(curve_set, curve_outputs, curve_grids, grids)
+SIMDBEZIER_EVALUATE(curve_set, curve_outputs, curve_samples, samples)
 
-simdbezier_status simdbezier_evaluate_patch_grids(const simdbezier_patch_set* set,
-                                                  const simdbezier_patch_grids* grids,
-                                                  const simdbezier_outputs* out,
-                                                  const simdbezier_options* options) {
-  return evaluate_at(__func__, set, grids, kGrids, out, options);
-}
-
-simdbezier_status simdbezier_evaluate_samples(const simdbezier_patch_set* set,
-                                              const simdbezier_samples* samples,
-                                              const simdbezier_outputs* out,
-                                              const simdbezier_options* options) {
-  return evaluate_at(__func__, set, samples, kSamples, out, options);
-}
-
-size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set, const simdbezier_grid* grid) {
-  return samples_at(set, grid, kGrid);
-}
-
-size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,
-                                           const simdbezier_patch_grids* grids) {
-  return samples_at(set, grids, kGrids);
-}
-
-simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
-                                                 const simdbezier_curve_grid* grid,
-                                                 const simdbezier_curve_outputs* out,
-                                                 const simdbezier_options* options) {
-  return evaluate_at(__func__, set, grid, kGrid, out, options);
-}
-
-simdbezier_status simdbezier_evaluate_curve_grids(const simdbezier_curve_set* set,
-                                                  const simdbezier_curve_grids* grids,
-                                                  const simdbezier_curve_outputs* out,
-                                                  const simdbezier_options* options) {
-  return evaluate_at(__func__, set, grids, kGrids, out, options);
-}
-
-simdbezier_status simdbezier_evaluate_curve_samples(const simdbezier_curve_set* set,
-                                                    const simdbezier_curve_samples* samples,
-                                                    const simdbezier_curve_outputs* out,
-                                                    const simdbezier_options* options) {
-  return evaluate_at(__func__, set, samples, kSamples, out, options);
-}
-
-size_t simdbezier_curve_grid_sample_count(const simdbezier_curve_set* set,
-                                          const simdbezier_curve_grid* grid) {
-  return samples_at(set, grid, kGrid);
-}
-
-size_t simdbezier_curve_grids_sample_count(const simdbezier_curve_set* set,
-                                           const simdbezier_curve_grids* grids) {
-  return samples_at(set, grids, kGrids);
-}
+// sample_count() of those whose sizes do not say it.
+#define SIMDBEZIER_SAMPLE_COUNT(set_type, where_type)                                              \
+  size_t simdbezier_##where_type##_sample_count(const simdbezier_##set_type* set,                  \
+                                                const simdbezier_##where_type* where) {            \
+    return samples_at(set, where);                                                                 \
+  }
+SIMDBEZIER_SAMPLE_COUNT(patch_set, grid)
+SIMDBEZIER_SAMPLE_COUNT(patch_set, patch_grids)
+SIMDBEZIER_SAMPLE_COUNT(curve_set, curve_grid)
+SIMDBEZIER_SAMPLE_COUNT(curve_set, curve_grids)
 
 simdbezier_status
 simdbezier_evaluate_grid_derivatives(const simdbezier_patch_set* set, const simdbezier_grid* grid,

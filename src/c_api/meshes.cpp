@@ -166,12 +166,17 @@ const auto kPlanMesh = []<typename T>(const auto& views, const auto&... how) {
 using namespace simdbezier;
 using namespace simdbezier::c_api;
 
-simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t length,
-                                        simdbezier_scalar scalar,
-                                        const simdbezier_mesh_options* options,
-                                        simdbezier_mesh** mesh) {
-  return make(__func__, nets, length, scalar, options, mesh, "mesh", kTessellate);
-}
+// tessellate() and plan_mesh() of nets and of splines.
+#define SIMDBEZIER_MAKE(name, models, model_type, made, made_type, call)                           \
+  simdbezier_status simdbezier_##name(                                                             \
+      const simdbezier_##model_type* models, size_t length, simdbezier_scalar scalar,              \
+      const simdbezier_mesh_options* options, simdbezier_##made_type** made) {                     \
+    return make(__func__, models, length, scalar, options, made, #made, call);                     \
+  }
+SIMDBEZIER_MAKE(tessellate, nets, nets, mesh, mesh, kTessellate)
+SIMDBEZIER_MAKE(plan_mesh, nets, nets, plan, mesh_plan, kPlanMesh)
+SIMDBEZIER_MAKE(spline_tessellate, surfaces, spline_surface, mesh, mesh, kTessellate)
+SIMDBEZIER_MAKE(spline_plan_mesh, surfaces, spline_surface, plan, mesh_plan, kPlanMesh)
 
 void simdbezier_mesh_free(simdbezier_mesh* mesh) { delete mesh; }
 
@@ -185,13 +190,6 @@ simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
                                         simdbezier_topology_counts* counts) {
   return look(__func__, mesh, {"mesh"}, counts, {"counts"},
               [](const auto& of) { return counts_of(of.counts); });
-}
-
-simdbezier_status simdbezier_plan_mesh(const simdbezier_nets* nets, size_t length,
-                                       simdbezier_scalar scalar,
-                                       const simdbezier_mesh_options* options,
-                                       simdbezier_mesh_plan** plan) {
-  return make(__func__, nets, length, scalar, options, plan, "plan", kPlanMesh);
 }
 
 void simdbezier_mesh_plan_free(simdbezier_mesh_plan* plan) { delete plan; }
@@ -209,18 +207,4 @@ simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mesh_plan* plan,
                                              simdbezier_topology_counts* counts) {
   return look(__func__, plan, {"plan"}, counts, {"counts"},
               [](const auto& of) { return counts_of(of.counts); });
-}
-
-simdbezier_status simdbezier_spline_tessellate(const simdbezier_spline_surface* surfaces,
-                                               size_t length, simdbezier_scalar scalar,
-                                               const simdbezier_mesh_options* options,
-                                               simdbezier_mesh** mesh) {
-  return make(__func__, surfaces, length, scalar, options, mesh, "mesh", kTessellate);
-}
-
-simdbezier_status simdbezier_spline_plan_mesh(const simdbezier_spline_surface* surfaces,
-                                              size_t length, simdbezier_scalar scalar,
-                                              const simdbezier_mesh_options* options,
-                                              simdbezier_mesh_plan** plan) {
-  return make(__func__, surfaces, length, scalar, options, plan, "plan", kPlanMesh);
 }

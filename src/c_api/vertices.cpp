@@ -80,6 +80,7 @@ constexpr struct {
     {&simdbezier_formatted_outputs::normal, &FormattedOutputs::normal, "normal"},
     {&simdbezier_formatted_outputs::parameters, &FormattedOutputs::parameters, "parameters"}};
 
+template <typename T>
 FormattedOutputs outputs_of(const simdbezier_formatted_outputs* given) {
   const auto known = read(given, kOut);
   FormattedOutputs out;
@@ -117,6 +118,25 @@ Path blamed_output(const FormattedOutputs& out, Status status, std::size_t verti
   return blamed_in_mesh(status);
 }
 
+/// evaluate_mesh() into vectors or formats.
+template <typename Out>
+simdbezier_status evaluate_vertices(const char* function, const simdbezier_patch_set* set,
+                                    const simdbezier_mesh_layout* layout, const Out* out,
+                                    const simdbezier_options* options, std::size_t first_patch,
+                                    std::size_t patch_count) noexcept {
+  return answer(function, [&] {
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const auto to = outputs_of<T>(out);
+      const Options how = call_options_of(options);
+      const SetRange range = range_of(first_patch, patch_count);
+      require_ok(evaluate_mesh(patches, numbers, to, how, range), [&](Status status) {
+        return blamed_output(to, status, vertices_of(numbers, patches.size(), range));
+      });
+    });
+  });
+}
+
 } // namespace
 } // namespace simdbezier::c_api
 
@@ -128,17 +148,7 @@ simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
                                            const simdbezier_mesh_outputs* out,
                                            const simdbezier_options* options, size_t first_patch,
                                            size_t patch_count) {
-  return answer(__func__, [&] {
-    const MeshLayout& numbers = object_of(layout, kLayout);
-    with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const MeshOutputs<T> to = outputs_of<T>(out);
-      const Options how = call_options_of(options);
-      const SetRange range = range_of(first_patch, patch_count);
-      require_ok(evaluate_mesh(patches, numbers, to, how, range), [&](Status status) {
-        return blamed_output(to, status, vertices_of(numbers, patches.size(), range));
-      });
-    });
-  });
+  return evaluate_vertices(__func__, set, layout, out, options, first_patch, patch_count);
 }
 
 simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set* set,
@@ -224,17 +234,5 @@ simdbezier_status simdbezier_evaluate_formatted_mesh(const simdbezier_patch_set*
                                                      const simdbezier_formatted_outputs* out,
                                                      const simdbezier_options* options,
                                                      size_t first_patch, size_t patch_count) {
-  return answer(__func__, [&] {
-    const MeshLayout& numbers = object_of(layout, kLayout);
-    with_object(set, kSet, [&](const auto& patches) {
-      const FormattedOutputs to = outputs_of(out);
-      const Options how = call_options_of(options);
-      const SetRange range = range_of(first_patch, patch_count);
-      require_ok(evaluate_mesh(patches, numbers, to, how, range), [&](Status status) {
-        return status == Status::unequal_lengths || status == Status::bad_patch_range
-                   ? blamed_in_mesh(status)
-                   : blamed_output(to, status, vertices_of(numbers, patches.size(), range));
-      });
-    });
-  });
+  return evaluate_vertices(__func__, set, layout, out, options, first_patch, patch_count);
 }
