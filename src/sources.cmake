@@ -27,7 +27,7 @@ simdbezier_add_sources(output O3 delivery.cpp output_check.cpp)
 simdbezier_add_sources(output O2 output_plan.cpp)
 simdbezier_add_sources(runtime O3 batch.cpp cache_sizes.cpp dispatch.cpp fp_environment.cpp
                        instruction_sets.cpp status.cpp threads_${SIMDBEZIER_THREADS}.cpp)
-simdbezier_add_sources(mesh/topology O3 distinct_nets.cpp entanglement.cpp fit.cpp
+simdbezier_add_sources(mesh/topology O3 entanglement.cpp fit.cpp
                        forced_diagonals.cpp net_corners.cpp orientation.cpp snapping.cpp
                        topology.cpp)
 simdbezier_add_sources(mesh/split O3 split_edges.cpp)

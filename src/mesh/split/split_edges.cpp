@@ -14,6 +14,7 @@
 #include "src/mesh/topology/net_corners.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/runtime/sort.hpp"
 
@@ -265,9 +266,6 @@ Status split_edges(std::span<const ControlNets<S>> nets, SplitNets<S>& split,
   return Status::out_of_memory;
 }
 
-template SIMDBEZIER_API Status split_edges(std::span<const ControlNets<float>>, SplitNets<float>&,
-                                           const SplitOptions&, const RunOptions&) noexcept;
-template SIMDBEZIER_API Status split_edges(std::span<const ControlNets<double>>, SplitNets<double>&,
-                                           const SplitOptions&, const RunOptions&) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(split_edges);
 
 } // namespace simdbezier

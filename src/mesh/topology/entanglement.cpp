@@ -1,5 +1,5 @@
-// See entanglement.hpp.
-#include "src/mesh/topology/entanglement.hpp"
+// See marks.hpp.
+#include "src/mesh/topology/marks.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -10,6 +10,7 @@
 #include "src/nets/edge_values.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -74,8 +75,7 @@ Status check_model(std::span<const ControlNets<S>> nets) noexcept {
   return check_views(nets);
 }
 
-template Status check_model(std::span<const ControlNets<float>>) noexcept;
-template Status check_model(std::span<const ControlNets<double>>) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(check_model);
 
 template <typename S>
 std::size_t first_misfit(const TopologyData& topology, std::span<const ControlNets<S>> nets,
@@ -94,8 +94,7 @@ std::size_t first_misfit(const TopologyData& topology, std::span<const ControlNe
   return lowest;
 }
 
-template std::size_t first_misfit(const TopologyData&, std::span<const ControlNets<float>>, int);
-template std::size_t first_misfit(const TopologyData&, std::span<const ControlNets<double>>, int);
+SIMDBEZIER_OF_BOTH_TYPES(first_misfit);
 
 } // namespace detail
 

@@ -1,5 +1,6 @@
-// See forced_diagonals.hpp.
-#include "src/mesh/topology/forced_diagonals.hpp"
+// See marks.hpp.
+#include "src/mesh/topology/marks.hpp"
+#include "src/runtime/both_types.hpp"
 
 #include <utility>
 
@@ -126,12 +127,7 @@ void mark_loops(const NetCorners<S>& nets, std::span<const std::uint8_t> doubts,
   }
 }
 
-#define SIMDBEZIER_FORCED_DIAGONALS(S)                                                             \
-  template void mark_corners(const NetCorners<S>&, std::span<const std::uint8_t>,                  \
-                             std::span<const std::uint32_t>, TopologyData&);                       \
-  template void mark_loops(const NetCorners<S>&, std::span<const std::uint8_t>, TopologyData&);
-SIMDBEZIER_FORCED_DIAGONALS(float)
-SIMDBEZIER_FORCED_DIAGONALS(double)
-#undef SIMDBEZIER_FORCED_DIAGONALS
+SIMDBEZIER_OF_BOTH_TYPES(mark_corners);
+SIMDBEZIER_OF_BOTH_TYPES(mark_loops);
 
 } // namespace simdbezier::detail

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/runtime/batch.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/sort.hpp"
 #include "src/storage/one_point.hpp"
 
@@ -241,9 +242,6 @@ void mark_repeated(const NetCorners<S>& nets, std::span<const std::uint32_t> can
 
 template class NetCorners<float>;
 template class NetCorners<double>;
-template void mark_repeated(const NetCorners<float>&, std::span<const std::uint32_t>,
-                            TopologyData&);
-template void mark_repeated(const NetCorners<double>&, std::span<const std::uint32_t>,
-                            TopologyData&);
+SIMDBEZIER_OF_BOTH_TYPES(mark_repeated);
 
 } // namespace simdbezier::detail

@@ -1,5 +1,5 @@
-// See orientation.hpp.
-#include "src/mesh/topology/orientation.hpp"
+// See marks.hpp.
+#include "src/mesh/topology/marks.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
@@ -245,11 +246,8 @@ std::vector<double> find_displacements(const NetCorners<S>& nets, const Topology
   return displacements;
 }
 
-template std::size_t snap_sides(const NetCorners<float>&, double, EdgeRings<std::uint32_t>&);
-template std::size_t snap_sides(const NetCorners<double>&, double, EdgeRings<std::uint32_t>&);
-template double find_displacement(const NetCorners<float>&, const TopologyData&, std::size_t);
-template double find_displacement(const NetCorners<double>&, const TopologyData&, std::size_t);
-template std::vector<double> find_displacements(const NetCorners<float>&, const TopologyData&);
-template std::vector<double> find_displacements(const NetCorners<double>&, const TopologyData&);
+SIMDBEZIER_OF_BOTH_TYPES(snap_sides);
+SIMDBEZIER_OF_BOTH_TYPES(find_displacement);
+SIMDBEZIER_OF_BOTH_TYPES(find_displacements);
 
 } // namespace simdbezier::detail

@@ -3,19 +3,19 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "src/calls/call.hpp"
 #include "src/mesh/topology/corner_joiner.hpp"
 #include "src/mesh/topology/edge_numbers.hpp"
-#include "src/mesh/topology/entanglement.hpp"
 #include "src/mesh/topology/fit.hpp"
-#include "src/mesh/topology/forced_diagonals.hpp"
+#include "src/mesh/topology/marks.hpp"
 #include "src/mesh/topology/net_corners.hpp"
-#include "src/mesh/topology/orientation.hpp"
 #include "src/mesh/topology/snapping.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/edge_rings.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -97,8 +97,7 @@ template <typename S>
 Status find_topology(std::span<const ControlNets<S>> nets, Topology& topology,
                      const TopologyOptions& options, const RunOptions& run) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const Status status = detail::check(nets, options);
-  if (status != Status::ok) {
+  if (const Status status = detail::check(nets, options); !status) {
     return status;
   }
   auto data = std::make_shared<detail::TopologyData>();
@@ -115,6 +114,42 @@ template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<float>>
                                              const TopologyOptions&, const RunOptions&) noexcept;
 template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<double>>, Topology&,
                                              const TopologyOptions&, const RunOptions&) noexcept;
+
+template <typename S>
+Status find_distinct_nets(std::span<const ControlNets<S>> nets, const Topology& topology,
+                          DistinctNets<S>& distinct) noexcept try {
+  if (detail::is_missing(nets)) {
+    return Status::null_input;
+  }
+  if (detail::patches_of(nets) != topology.counts().patches) {
+    return Status::unequal_lengths;
+  }
+  DistinctNets<S> found;
+  std::uint32_t number = 0;
+  for (const ControlNets<S>& view : nets) {
+    bool open = false;
+    for (std::size_t patch = 0; patch < view.count; ++patch, ++number) {
+      if (topology.is_repeated(number)) {
+        open = false;
+        continue;
+      }
+      if (!open) {
+        ControlNets<S>& part = found.nets.emplace_back(view);
+        part.points += static_cast<std::ptrdiff_t>(patch) * view.patch_stride;
+        part.count = 0;
+        open = true;
+      }
+      ++found.nets.back().count;
+      found.patches.push_back(number);
+    }
+  }
+  distinct = std::move(found);
+  return Status::ok;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+SIMDBEZIER_EXPORT_BOTH_TYPES(find_distinct_nets);
 
 TopologyCounts Topology::counts() const noexcept {
   return data_ == nullptr ? TopologyCounts{} : data_->counts;
