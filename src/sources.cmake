@@ -32,7 +32,7 @@ simdbezier_add_sources(mesh/topology O3 entanglement.cpp fit.cpp
                        topology.cpp)
 simdbezier_add_sources(mesh/split O3 split_edges.cpp)
 simdbezier_add_sources(mesh/bounds O3 cell_graph.cpp chord_distance.cpp group_bound.cpp
-                       normal_bends.cpp normal_turns.cpp patch_turn.cpp separable_bound.cpp
+                       normal_bends.cpp separable_bound.cpp
                        space_bound.cpp vector_patch.cpp)
 simdbezier_add_sources(mesh/rates O3 cell_search.cpp certify_grids.cpp curve_cells.cpp
                        filip_terms.cpp flatten.cpp pixels.cpp position_errors.cpp rates.cpp

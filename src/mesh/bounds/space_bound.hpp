@@ -9,7 +9,6 @@
 
 #include "src/mesh/bounds/bound_parts.hpp"
 #include "src/mesh/bounds/cell_graph.hpp"
-#include "src/mesh/bounds/patch_turn.hpp"
 #include "src/mesh/bounds/vector_patch.hpp"
 
 namespace simdbezier::detail {

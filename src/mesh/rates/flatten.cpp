@@ -8,7 +8,7 @@
 #include <new>
 
 #include "src/mesh/bounds/bound_parts.hpp"
-#include "src/mesh/bounds/power_of_two.hpp"
+#include "src/mesh/bounds/vector_patch.hpp"
 #include "src/mesh/rates/curve_cells.hpp"
 #include "src/pack/curve_input.hpp"
 #include "src/runtime/attempt.hpp"
