@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "src/exact/normal_series.hpp"
+#include "src/runtime/both_types.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -140,10 +141,7 @@ SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
   return put_direction(term, sign, normal);
 }
 
-template SampleStatus resolve_normal(const NormalQuery<float>&, float[3]) noexcept;
-template SampleStatus resolve_normal(const NormalQuery<double>&, double[3]) noexcept;
-template SampleStatus resolve_corner_normal(const NormalQuery<float>&, unsigned, float[3]) noexcept;
-template SampleStatus resolve_corner_normal(const NormalQuery<double>&, unsigned,
-                                            double[3]) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(resolve_normal);
+SIMDBEZIER_OF_BOTH_TYPES(resolve_corner_normal);
 
 } // namespace simdbezier::detail

@@ -17,8 +17,8 @@ namespace simdbezier::detail {
 /// normal is nan.
 ///
 /// A patch without any normal is found to be one once for all of its samples (src/exact/
-/// curve_like.hpp), as long as a thread asks about no other patch in between: threads remember the
-/// control points that they were asked about last, and what is known of them.
+/// zero_everywhere.hpp), as long as a thread asks about no other patch in between: threads remember
+/// the control points that they were asked about last, and what is known of them.
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 

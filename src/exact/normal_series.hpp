@@ -6,11 +6,10 @@
 
 #include <simdbezier/control_nets.hpp>
 
-#include "src/exact/curve_like.hpp"
 #include "src/exact/exact_points.hpp"
 #include "src/exact/leading_term.hpp"
 #include "src/exact/line_basis.hpp"
-#include "src/exact/straight_points.hpp"
+#include "src/exact/zero_everywhere.hpp"
 
 namespace simdbezier::detail {
 

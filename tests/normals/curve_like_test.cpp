@@ -10,8 +10,8 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-#include "src/exact/curve_like.hpp"
 #include "src/exact/normal_fallback.hpp"
+#include "src/exact/zero_everywhere.hpp"
 #include "tests/support/nets/degenerate_nets.hpp"
 #include "tests/support/nets/net_forms.hpp"
 #include "tests/support/nets/points_by_rounding.hpp"
