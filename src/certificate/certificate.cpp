@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "src/certificate/certificate_sums.hpp"
-#include "src/certificate/control_values.hpp"
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/patch_storage.hpp"

@@ -1,14 +1,55 @@
-// Running-error sums of packed polynomials, which certificates are made of. All in double.
+// What certificates are made of: how often the term of each power is rounded, by direction (the
+// proof is in docs/accuracy.md), running-error sums of packed polynomials, and what is asked of the
+// control points as they were given. All in double.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-#include "src/certificate/direction_roundings.hpp"
+#include "src/storage/even_odd_rule.hpp"
+#include "src/storage/given_points.hpp"
 #include "src/storage/net_shape.hpp"
+#include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
+
+/// The counts of even and odd parts, rounded up where roundings reach only a part of a term:
+/// [with or without fused operations][order of the derivative][degree - 3][power].
+inline constexpr unsigned char kEvenOddRoundings[2][3][3][6] = {
+    {{{2, 3, 4, 5}, {2, 3, 5, 5, 7}, {2, 3, 5, 6, 7, 8}},
+     {{0, 3, 2, 5}, {0, 3, 4, 5, 6}, {0, 3, 4, 6, 6, 8}},
+     {{0, 0, 1, 3}, {0, 0, 4, 3, 5}, {0, 0, 4, 6, 5, 7}}},
+    {{{2, 3, 3, 4}, {2, 3, 4, 4, 5}, {2, 3, 4, 5, 5, 6}},
+     {{0, 3, 2, 4}, {0, 3, 4, 4, 5}, {0, 3, 4, 5, 5, 6}},
+     {{0, 0, 1, 3}, {0, 0, 4, 3, 4}, {0, 0, 4, 6, 4, 6}}}};
+
+/// One direction of a polynomial.
+struct DirectionRoundings {
+  std::size_t order = 1;
+  bool halved = false; ///< there are two cells, whose parameter is rounded, too
+  bool fused = true;   ///< a multiply-add rounds once
+  bool column = false; ///< evaluated first, which is Horner's rule at any degree
+
+  [[nodiscard]] constexpr double value(std::size_t k) const { return derivative(0, k); }
+  [[nodiscard]] constexpr double slope(std::size_t k) const { return derivative(1, k); }
+
+  /// The count of the term k (k - 1) … c_k t^(k - taken); 0 where it vanishes in the derivative.
+  [[nodiscard]] constexpr double derivative(std::size_t taken, std::size_t k) const {
+    if (k < taken) {
+      return 0;
+    }
+    const auto degree = static_cast<int>(order) - 1;
+    if (!column && is_even_odd(degree)) {
+      return kEvenOddRoundings[fused ? 1 : 0][taken][degree - kLeastEvenOddDegree][k];
+    }
+    // Horner's rule and every synthetic division: the power k enters at step k of order - 1, the
+    // last one with the first product.
+    return (fused ? 1.0 : 2.0) * static_cast<double>(std::min(k + 1, order - 1)) +
+           (halved ? static_cast<double>(k - taken) : 0);
+  }
+};
 
 /// What the terms of a polynomial are multiplied by in the sums below, which depends on its degrees
 /// and not on its coefficients.
@@ -111,5 +152,76 @@ double unless_overflow(double bound, double way) {
       static_cast<double>(std::numeric_limits<T>::max()) / 8; // halves scale by 4
   return way < kMost ? bound : std::numeric_limits<double>::infinity();
 }
+
+/// Some control points, `step` of them apart.
+struct PointRun {
+  std::size_t first;
+  std::size_t step;
+  std::size_t count;
+};
+
+struct ControlValues {
+  GivenNet net;
+  std::size_t points;
+  std::size_t channels; ///< of a point; the last one is the weight where it is rational
+  bool rational;
+
+  /// A point's coordinate, or its weight.
+  [[nodiscard]] double value(std::size_t point, std::size_t channel) const {
+    return rational && channel + 1 == channels ? net.value(point * channels + channel)
+                                               : net.coordinate(point, channels, channel);
+  }
+  /// Largest |value| of a channel.
+  [[nodiscard]] double largest(std::size_t channel) const {
+    double most = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+      most = std::max(most, std::fabs(value(k, channel)));
+    }
+    return most;
+  }
+  [[nodiscard]] double least_weight() const {
+    double least = HUGE_VAL;
+    for (std::size_t k = 0; k < points; ++k) {
+      least = std::min(least, value(k, channels - 1));
+    }
+    return least;
+  }
+  /// Bounds the distance from a number in one component, with `unit` of roundoff: all samples are
+  /// in the hull of the control points.
+  [[nodiscard]] double reach_from(double around, std::size_t component, double unit) const {
+    double reach = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+      const double point = value(k, component);
+      reach = std::max(reach, std::fabs(point - around) + 8 * unit * std::fabs(point));
+    }
+    return reach;
+  }
+  /// How far apart the coordinates of homogeneous points are that count as one although they differ
+  /// by roundings, quotients' roundings included; 0 where they are not one.
+  [[nodiscard]] double merged_distance(const PointRun& run, std::size_t component) const {
+    const GivenPoints& all = *net.all;
+    if (all.weights != Weights::homogeneous ||
+        !(all.in_double ? are_one<double>(run) : are_one<float>(run))) {
+      return 0;
+    }
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (std::size_t k = 0; k < run.count; ++k) {
+      const double x = value(run.first + k * run.step, component);
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    const double origin = component < 3 ? std::fabs(all.relative_to[component]) : 0;
+    return high - low + 0x1p-51 * (std::max(-low, high) + origin);
+  }
+
+private:
+  template <typename S>
+  [[nodiscard]] bool are_one(const PointRun& run) const {
+    return are_one_point(static_cast<const S*>(net.values) + run.first * channels,
+                         static_cast<std::ptrdiff_t>(run.step * channels), run.count, channels - 1,
+                         1, net.all->weights);
+  }
+};
 
 } // namespace simdbezier::detail

@@ -6,7 +6,6 @@
 #include <simdbezier/bounds.hpp>
 
 #include "src/certificate/certificate_sums.hpp"
-#include "src/certificate/control_values.hpp"
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"

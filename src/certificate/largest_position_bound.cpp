@@ -5,6 +5,7 @@
 #include <simdbezier/bounds.hpp>
 
 #include "src/certificate/position_bounds.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -30,7 +31,6 @@ double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
   return largest;
 }
 
-template SIMDBEZIER_API double largest_position_bound(const PatchSet<float>&, Isa) noexcept;
-template SIMDBEZIER_API double largest_position_bound(const PatchSet<double>&, Isa) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(largest_position_bound);
 
 } // namespace simdbezier

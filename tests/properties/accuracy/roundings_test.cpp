@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/certificate/direction_roundings.hpp"
+#include "src/certificate/certificate_sums.hpp"
 #include "tests/properties/accuracy/judge/tracked.hpp"
 #include "tests/support/even_odd_model.hpp"
 
