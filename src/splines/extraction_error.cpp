@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/one_point.hpp"
 
@@ -101,7 +102,6 @@ double extraction_error(const SplineSurface<S>& surface) noexcept {
   return least > 0 ? (off / least + merged) * kRounding : std::numeric_limits<double>::infinity();
 }
 
-template SIMDBEZIER_API double extraction_error(const SplineSurface<float>&) noexcept;
-template SIMDBEZIER_API double extraction_error(const SplineSurface<double>&) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(extraction_error);
 
 } // namespace simdbezier

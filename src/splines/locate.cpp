@@ -2,8 +2,7 @@
 #include <simdbezier/splines.hpp>
 
 #include "src/runtime/fp_environment.hpp"
-#include "src/splines/span_finder.hpp"
-#include "src/splines/spline_axes.hpp"
+#include "src/splines/spline_knots.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -71,7 +70,8 @@ Report find_places(const SplineSurface<S>& surface, std::size_t count, const dou
 }
 
 template <typename S>
-SpanCounts count_spans(const SplineSurface<S>& surface) {
+SpanCounts count_spans(const SplineSurface<S>& surface) noexcept try {
+  const DefaultFpEnvironment environment;
   SpanCounts counts{0, 1};
   for (int d = 0; d < (surface.degree_v == 0 ? 1 : 2); ++d) {
     SplineKnots knots;
@@ -82,6 +82,8 @@ SpanCounts count_spans(const SplineSurface<S>& surface) {
     (d == 0 ? counts.u : counts.v) = knots.spans().size();
   }
   return counts;
+} catch (const std::bad_alloc&) {
+  return {};
 }
 
 } // namespace
@@ -89,24 +91,12 @@ SpanCounts count_spans(const SplineSurface<S>& surface) {
 
 template <typename S>
 SpanCounts span_count(const SplineSurface<S>& surface) noexcept {
-  SpanCounts counts;
-  const detail::DefaultFpEnvironment environment;
-  static_cast<void>(detail::guarded([&] {
-    counts = surface.degree_v == 0 ? SpanCounts() : detail::count_spans(surface);
-    return Report();
-  }));
-  return counts;
+  return surface.degree_v == 0 ? SpanCounts() : detail::count_spans(surface);
 }
 
 template <typename S>
 SpanCounts span_count(const SplineCurve<S>& curve) noexcept {
-  SpanCounts counts;
-  const detail::DefaultFpEnvironment environment;
-  static_cast<void>(detail::guarded([&] {
-    counts = detail::count_spans(detail::as_surface(curve));
-    return Report();
-  }));
-  return counts;
+  return detail::count_spans(detail::as_surface(curve));
 }
 
 template <typename S>

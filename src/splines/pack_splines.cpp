@@ -7,7 +7,7 @@
 #include "src/nets/net_call.hpp"
 #include "src/pack/run_packer.hpp"
 #include "src/runtime/dispatch.hpp"
-#include "src/splines/spline_axes.hpp"
+#include "src/splines/spline_knots.hpp"
 #include "src/splines/spline_nets.hpp"
 
 namespace simdbezier {

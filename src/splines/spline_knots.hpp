@@ -1,7 +1,10 @@
-// The knots of one direction of a spline: checked, and cut into spans.
+// The directions of splines: their knots, checked and cut into spans, and the spans of parameters.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -59,5 +62,99 @@ private:
   std::vector<double> knots_; ///< scaled, where they are near the end of the range of doubles
   std::vector<SplineSpan> spans_;
 };
+
+/// One direction of a spline; spans near the last one are found without a search.
+class SpanFinder {
+public:
+  SpanFinder(const SplineKnots& knots, const SplineAxis& axis) noexcept
+      : spans_(knots.spans()), begin_(spans_.front().interval.begin),
+        end_(spans_.back().interval.end), repeats_(axis.periodic && axis.range.empty()) {}
+
+  /// ok | bad_range | non_finite_input; finds the parameter's span.
+  [[nodiscard]] Status find(double parameter) noexcept {
+    if (!std::isfinite(parameter)) {
+      return Status::non_finite_input;
+    }
+    parameter_ = parameter;
+    if (repeats_ && !(begin_ <= parameter && parameter <= end_)) {
+      const double length = end_ - begin_;
+      parameter_ -= length * std::floor((parameter - begin_) / length);
+      parameter_ = std::min(std::max(parameter_, begin_), end_); // it is off by a rounding
+    }
+    if (!(begin_ <= parameter_ && parameter_ <= end_)) {
+      return Status::bad_range;
+    }
+    const Interval& last = spans_[span_].interval;
+    if (!(last.begin <= parameter_ && parameter_ < last.end)) {
+      const auto after = std::upper_bound(
+          spans_.begin(), spans_.end(), parameter_,
+          [](double at, const SplineSpan& span) { return at < span.interval.begin; });
+      span_ = static_cast<std::size_t>(after - spans_.begin()) - 1;
+    }
+    return Status::ok;
+  }
+
+  [[nodiscard]] std::size_t span() const noexcept { return span_; }
+  [[nodiscard]] double length() const noexcept { return spans_[span_].interval.length(); }
+  /// The parameter in [0, 1] of the span.
+  [[nodiscard]] double local() const noexcept {
+    const Interval& interval = spans_[span_].interval;
+    return (parameter_ - interval.begin) / interval.length();
+  }
+  /// In [-1, 1], such that mirrored parameters in exactly mirrored knots give mirrored values, bit
+  /// for bit: 2 local() - 1 does not.
+  [[nodiscard]] double centred() const noexcept {
+    const Interval& interval = spans_[span_].interval;
+    return ((parameter_ - interval.begin) - (interval.end - parameter_)) / interval.length();
+  }
+
+private:
+  const std::vector<SplineSpan>& spans_;
+  double begin_;
+  double end_;
+  bool repeats_;
+  double parameter_ = 0;
+  std::size_t span_ = 0;
+};
+
+/// 0: u, 1: v.
+template <typename S>
+SplineAxis axis_of(const SplineSurface<S>& surface, int direction) noexcept {
+  return direction == 0 ? SplineAxis{surface.degree_u, surface.columns, surface.periodic_u,
+                                     surface.knots_u,  surface.u_range, surface.knot_tolerance}
+                        : SplineAxis{surface.degree_v, surface.rows,    surface.periodic_v,
+                                     surface.knots_v,  surface.v_range, surface.knot_tolerance};
+}
+
+/// A curve as a surface of one row. Its direction v is none, and of degree 0.
+template <typename S>
+SplineSurface<S> as_surface(const SplineCurve<S>& curve) noexcept {
+  SplineSurface<S> surface;
+  surface.points = curve.points;
+  surface.rows = 1;
+  surface.columns = curve.count;
+  surface.point_stride = curve.point_stride;
+  surface.component_stride = curve.component_stride;
+  surface.components = curve.components;
+  surface.weights = curve.weights;
+  surface.periodic_u = curve.periodic;
+  surface.degree_u = curve.degree;
+  surface.degree_v = 0;
+  surface.knots_u = curve.knots;
+  surface.u_range = curve.range;
+  surface.knot_tolerance = curve.knot_tolerance;
+  surface.memory = curve.memory;
+  return surface;
+}
+
+/// What a step reports; out_of_memory where it throws.
+template <typename Step>
+Report guarded(const Step& step) noexcept {
+  try {
+    return step();
+  } catch (const std::bad_alloc&) {
+    return {Status::out_of_memory};
+  }
+}
 
 } // namespace simdbezier::detail

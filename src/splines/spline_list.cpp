@@ -6,7 +6,7 @@
 
 #include "src/nets/net_call.hpp"
 #include "src/nets/net_places.hpp"
-#include "src/splines/spline_axes.hpp"
+#include "src/splines/spline_knots.hpp"
 #include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {

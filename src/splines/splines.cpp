@@ -5,7 +5,7 @@
 #include "src/nets/net_places.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
-#include "src/splines/spline_axes.hpp"
+#include "src/splines/spline_knots.hpp"
 #include "src/splines/spline_nets.hpp"
 
 namespace simdbezier {
