@@ -131,19 +131,10 @@ public:
       const std::size_t first = piece * kDerivativePiece;
       const std::size_t count = std::min(kDerivativePiece, samples_ - first);
       source_.fill(first, count, scratch.patch, scratch.x, scratch.y);
-      for (std::size_t k = 0; k < count;) {
-        const std::uint32_t bucket = set_.place(scratch.patch[k]).bucket;
-        std::size_t last = k;
-        for (; last < count; ++last) {
-          const PatchPlace place = set_.place(scratch.patch[last]);
-          if (place.bucket != bucket) {
-            break;
-          }
-          scratch.patch[last] = place.index;
-        }
-        executed = run_bucket(set_.buckets[bucket], scratch, k, last - k, first + k);
-        k = last;
-      }
+      for_buckets(set_, scratch.patch, scratch.patch, count,
+                  [&](const auto& bucket, auto at, auto last) {
+                    executed = run_bucket(bucket, scratch, at, last - at, first + at);
+                  });
     }
     return executed;
   }

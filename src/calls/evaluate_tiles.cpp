@@ -6,6 +6,7 @@
 
 #include "src/calls/call.hpp"
 #include "src/calls/piece_evaluator.hpp"
+#include "src/runtime/both_types.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -272,14 +273,7 @@ std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
   return call.resolve() && call.measure() ? call.samples() : 0;
 }
 
-#define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API Status evaluate_tiles(                                                   \
-      const PatchSet<T>&, const Grid<T>&, const TileFormat&,                                       \
-      std::type_identity_t<TileFunction<T>>, const Options&) noexcept;                             \
-  template SIMDBEZIER_API std::size_t largest_tile(const PatchSet<T>&, const Grid<T>&,             \
-                                                   const TileFormat&) noexcept;
-SIMDBEZIER_INSTANTIATE(float)
-SIMDBEZIER_INSTANTIATE(double)
-#undef SIMDBEZIER_INSTANTIATE
+SIMDBEZIER_EXPORT_BOTH_TYPES(evaluate_tiles);
+SIMDBEZIER_EXPORT_BOTH_TYPES(largest_tile);
 
 } // namespace simdbezier

@@ -1,5 +1,6 @@
 // See src/calls/grid_plan.hpp.
 #include "src/calls/grid_plan.hpp"
+#include "src/runtime/both_types.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -135,7 +136,6 @@ std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
 
 template class GridPlan<float>;
 template class GridPlan<double>;
-template float half_centred(float, Parameters) noexcept;
-template double half_centred(double, Parameters) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(half_centred);
 
 } // namespace simdbezier::detail

@@ -83,4 +83,24 @@ void set_half_centring(Parameters parameters, Task& task) noexcept {
   task.scale = unit ? 1.0F : 0.5F;
 }
 
+/// Calls use(bucket, first, last) for consecutive samples whose patches have one shape, once
+/// index[k] is the place in its bucket of each of their patches.
+template <typename T, typename Patch, typename Index, typename Use>
+void for_buckets(const SetStorage<T>& set, const Patch* patch, Index* index, std::size_t count,
+                 const Use& use) noexcept {
+  for (std::size_t k = 0; k < count;) {
+    const std::uint32_t bucket = set.place(patch[k]).bucket;
+    std::size_t last = k;
+    for (; last < count; ++last) {
+      const PatchPlace place = set.place(patch[last]);
+      if (place.bucket != bucket) {
+        break;
+      }
+      index[last] = static_cast<Index>(place.index);
+    }
+    use(set.buckets[bucket], k, last);
+    k = last;
+  }
+}
+
 } // namespace simdbezier::detail
