@@ -10,6 +10,7 @@
 #include "kernels/fast/small_grids.hpp"
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/simd/structures_across.hpp"
+#include "src/tables/sample_record.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -197,16 +198,29 @@ SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output
              task.patch_step);
 }
 
+/// Stores a vector of each sample of a register of patches in records of kSampleRecord values, and
+/// its last component once more, so that all stores are whole. vectors: of patch 0's first sample.
+template <typename V>
+SIMDBEZIER_PART void put_vectors_across(const V* x, const V* y, const V* z, std::size_t samples,
+                                        ScalarOf<V>* vectors, std::size_t patch_step) {
+  constexpr std::size_t kRecord = detail::kSampleRecord;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const V value[4] = {x[k], y[k], z[k], z[k]};
+    store_values_across<4>(value, vectors + k * kRecord, patch_step * kRecord);
+  }
+}
+
 /// Calls sweep(patch, how many are new) for registers of patches. The task has at least one.
 template <typename T, typename Sweep>
 SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& sweep) {
   constexpr std::size_t kL = kLanes<vec<T>>;
+  const bool only_corners = task.nu == 2 && task.run_count == 2;
   for (std::size_t done = 0; done < task.patch_count;) {
     const std::size_t left = task.patch_count - done;
     const std::size_t fresh = left < kL ? left : kL;
     if (task.prefetch) {
       for (std::size_t p = 0; p < fresh; ++p) {
-        prefetch_patch(task, done + p + kL - kPatchesAhead);
+        prefetch_patch(task, done + p + kL - kPatchesAhead, only_corners);
       }
     }
     sweep(done + fresh - kL, fresh);

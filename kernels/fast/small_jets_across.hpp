@@ -96,13 +96,29 @@ SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
         const V y = row == 0            ? grid.end[0].y
                     : row + 1 < grid.nv ? grid.row[row - 1].y
                                         : grid.end[1].y;
-        doubts.add(UncertainNormals{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1},
-                   broadcast<V>(grid.x[k % grid.nu]), y, squared[k], floor);
+        doubts.add(
+            UncertainNormals{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1, task.record},
+            broadcast<V>(grid.x[k % grid.nu]), y, squared[k], floor);
       }
     }
     if (doubts.any()) {
       doubts.resolve();
     }
+  }
+}
+
+/// Stores an output of a register of patches, whose values are in jets[c].p.
+template <typename V>
+SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output, std::size_t patch,
+                                const JetsAcross<V> (&jets)[3], std::size_t samples) {
+  if (task.record == detail::kSampleRecord) {
+    ScalarOf<V>* const first = task.out[output_index(output)].component[0];
+    put_vectors_across(jets[0].p, jets[1].p, jets[2].p, samples,
+                       first + patch * task.patch_step * task.record, task.patch_step);
+    return;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    put_across(task, output, c, patch, jets[c].p, samples);
   }
 }
 
@@ -115,8 +131,8 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
     JetsAcross<V> jets[3];
     for (std::size_t c = 0; c < 3; ++c) {
       jets[c].find(ComponentAcross<V>(task, grid, patch, c), grid);
-      put_across(task, Output::position, c, patch, jets[c].p, grid.samples());
     }
+    put_across(task, Output::position, patch, jets, grid.samples());
     const V floor = load_vector<V>(task.normal_floor + patch);
     V squared[kMostSmallSamples];
     bool passed = true;
@@ -132,9 +148,7 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
       squared[k] = s.squared;
       passed = passed && all_of<V>(s.squared > floor);
     }
-    for (std::size_t c = 0; c < 3; ++c) {
-      put_across(task, Output::normal, c, patch, jets[c].p, grid.samples());
-    }
+    put_across(task, Output::normal, patch, jets, grid.samples());
     if (!passed) [[unlikely]] {
       resolve_normals_across(shared_task, grid, patch, squared, floor);
     }
@@ -156,16 +170,20 @@ constexpr bool is_known_across(std::size_t side) {
   }
 }
 
-/// Whether lanes of a small grid are better patches: there is a register of them, and results go to
-/// planes that stay in the caches. Samples that leave them by plain stores are stored faster patch
-/// by patch: by lanes, parts of many lines are written in turns, and these are read first. Rows
-/// that are whole registers have tiles which find tangents as fast. Where registers are lines,
-/// there are such grids of mirrored squares only, staged ones are stored faster patch by patch as
-/// well, and idle lanes of the last register cost what is gained: an eighth of the patches at most
-/// where that is little, half of them elsewhere. Grids of two rows or columns have edges only.
+/// Whether lanes of a small grid are better patches: records of kSampleRecord values are put
+/// together so only. Else there is a register of patches, and results go to planes that stay in the
+/// caches. Samples that leave them by plain stores are stored faster patch by patch: by lanes,
+/// parts of many lines are written in turns, and these are read first. Rows that are whole
+/// registers have tiles which find tangents as fast. Where registers are lines, there are such
+/// grids of mirrored squares only, staged ones are stored faster patch by patch as well, and idle
+/// lanes of the last register cost what is gained: an eighth of the patches at most where that is
+/// little, half of them elsewhere. Grids of two rows or columns have edges only.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
+  if (task.record == detail::kSampleRecord) {
+    return true;
+  }
   if (task.patch_count < kL || task.record > 1 || task.streaming || task.plain_to_memory) {
     return false;
   }
@@ -200,7 +218,8 @@ SIMDBEZIER_PART void sweep_across(const GridTask<T>& task) {
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
   const auto sweep_known = [&]<std::size_t kSide>() SIMDBEZIER_INLINE_LAMBDA {
-    if constexpr (!kLineWide<vec<T>> || is_known_across<kOutputs, T>(kSide)) {
+    if constexpr (!kLineWide<vec<T>> || kOutputs == detail::kPositionNormal ||
+                  is_known_across<kOutputs, T>(kSide)) {
       if (task.nu == kSide) {
         sweep_across<kOutputs, kSide - 2>(task);
         return true;
@@ -208,7 +227,7 @@ SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
     }
     return false;
   };
-  const bool known = is_small_grid(task) && (kLineWide<vec<T>> || is_mirrored_square(task));
+  const bool known = is_small_grid(task) && is_mirrored_square(task);
   if (known && (sweep_known.template operator()<4>() || sweep_known.template operator()<5>())) {
     return;
   }

@@ -106,7 +106,7 @@ struct GridTask : SampleTask<T> {
   bool by_lines;        ///< rows are stored in whole lines: see src/choice/line_costs.hpp
   bool plain_to_memory; ///< outputs leave the caches, by plain stores
   std::size_t cached_bytes; ///< of samples stay in the first-level cache while tile follows tile
-  std::size_t record;       ///< values from one sample to the next: see OutputPlan::record()
+  std::size_t record;       ///< values to the next sample: OutputPlan::record() or kSampleRecord
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
   StrategySet allowed;  ///< read by the kernels of bicubic patches
   StrategySet taken;    ///< written by these

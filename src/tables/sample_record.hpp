@@ -1,0 +1,13 @@
+// Samples as kernels put them together for the vertices of meshes.
+#pragma once
+
+#include <cstddef>
+
+namespace simdbezier::detail {
+
+/// The values of a sample: position and normal, each with a fourth one behind it that may be
+/// anything. A GridTask asks for such records only where closed grids of at least a register of
+/// patches have them (kernels/fast/small_jets_across.hpp), of both outputs.
+inline constexpr std::size_t kSampleRecord = 8;
+
+} // namespace simdbezier::detail
