@@ -45,8 +45,10 @@ Delivery<T>::Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, st
   staging_[1] = plan.streaming() ? staging_[0] + plan.staged_planes() * plane_step_ : staging_[0];
   for (buffer_ = 2; buffer_-- > 0;) {
     for (std::size_t g = 0; g < kVectorOutputs; ++g) {
-      for (std::size_t c = 0; c < plan.dimension() && plan.is_staged(g); ++c) {
-        planes_[buffer_][g].component[c] = plane(plan.dimension() * plan.staged_vector(g) + c);
+      if (plan.is_staged(g)) {
+        for (std::size_t c = 0; c < dimension_of(*plan.out().vectors[g]); ++c) {
+          planes_[buffer_][g].component[c] = plane(plan.first_plane(g) + c);
+        }
       }
     }
   }

@@ -37,8 +37,7 @@ template <typename T>
 OutputPlan<T>::OutputPlan(const OutputList<T>& out, Way way) noexcept : out_(out), way_(way) {
   for (std::size_t g = 0; g < out.vector_count; ++g) {
     if (out.wants(g)) {
-      dimension_ = dimension_of(*out.vectors[g]);
-      vector_values_ += dimension_;
+      vector_values_ += dimension_of(*out.vectors[g]);
     }
   }
   stage();
@@ -60,12 +59,11 @@ std::size_t OutputPlan<T>::chunk_bytes() const noexcept {
 /// otherwise.
 template <typename T>
 void OutputPlan<T>::stage() noexcept {
-  std::size_t staged = 0;
   for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     const bool stages = out_.wants(g) && (streaming() || out_.vectors[g]->stride != 1);
-    staged_index_[g] = stages ? staged++ : kVectorOutputs;
+    first_plane_[g] = stages ? staged_planes_ : kNotStaged;
+    staged_planes_ += stages ? dimension_of(*out_.vectors[g]) : 0;
   }
-  staged_planes_ = dimension_ * staged;
   if (staged_planes_ > 0) {
     add_streams();
   }
@@ -78,7 +76,8 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   }
   const std::size_t record = stream_[0].members;
   const std::size_t line = 64 / sizeof(T);
-  const bool known = record == 1 || record == 3 || record == staged_planes_;
+  const bool vertex = record == staged_planes_ && record % 3 == 0; // not with parameters
+  const bool known = record == 1 || record == 3 || vertex;
   const bool all = staged_planes_ == vector_values_;
   const bool anywhere = record == 1 && rows.streamed_anywhere;
   const bool whole_lines = rows.row % line == 0;
@@ -122,7 +121,7 @@ void OutputPlan<T>::find_planes(std::size_t sample,
     if (out_.wants(g) && !is_staged(g)) {
       const Vectors<T>& group = *out_.vectors[g];
       T* const first[3] = {group.x, group.y, group.z};
-      for (std::size_t c = 0; c < dimension_; ++c) {
+      for (std::size_t c = 0; c < dimension_of(group); ++c) {
         planes[g].component[c] = first[c] + static_cast<std::ptrdiff_t>(sample) * group.stride;
       }
     }
@@ -133,7 +132,7 @@ template <typename T>
 void OutputPlan<T>::write_directly() noexcept {
   staged_planes_ = 0;
   streams_ = 0;
-  std::fill_n(staged_index_, kVectorOutputs, static_cast<std::size_t>(kVectorOutputs));
+  std::fill_n(first_plane_, kVectorOutputs, kNotStaged);
 }
 
 /// Members that lie side by side in one vertex become one stream.
@@ -145,7 +144,7 @@ void OutputPlan<T>::add_streams() noexcept {
   for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     if (is_staged(g)) {
       const Vectors<T>& group = *out_.vectors[g];
-      std::size_t plane = dimension_ * staged_vector(g);
+      std::size_t plane = first_plane(g);
       for (T* const first : {group.x, group.y, group.z}) {
         if (first != nullptr) {
           columns[count++] = {first, group.stride, plane++};

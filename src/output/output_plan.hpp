@@ -58,30 +58,29 @@ public:
   /// Gives up staging: kernels know the outputs' layout themselves.
   void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
-  /// Components of each vector.
-  [[nodiscard]] std::size_t dimension() const noexcept { return dimension_; }
-  /// Component c of vector g is staged plane dimension() * staged_vector(g) + c, or written
-  /// directly where the vector is not staged.
+  /// Component c of a vector is staged plane first_plane() + c, or written directly where the
+  /// vector is not staged.
   [[nodiscard]] bool is_staged(std::size_t vector) const noexcept {
-    return staged_index_[vector] < kVectorOutputs;
+    return first_plane_[vector] != kNotStaged;
   }
-  [[nodiscard]] std::size_t staged_vector(std::size_t vector) const noexcept {
-    return staged_index_[vector];
+  [[nodiscard]] std::size_t first_plane(std::size_t vector) const noexcept {
+    return first_plane_[vector];
   }
   [[nodiscard]] std::size_t streams() const noexcept { return streams_; }
   [[nodiscard]] const StreamShape<T>& stream(std::size_t k) const noexcept { return stream_[k]; }
 
 private:
+  static constexpr std::size_t kNotStaged = ~std::size_t(0);
+
   void stage() noexcept;
   void add_streams() noexcept;
 
   const OutputList<T>& out_;
-  std::size_t dimension_ = 3;
   Way way_;
   std::size_t vector_values_ = 0; ///< of one sample
   std::size_t staged_planes_ = 0;
   std::size_t record_ = 1;
-  std::size_t staged_index_[kVectorOutputs];
+  std::size_t first_plane_[kVectorOutputs];
   std::size_t streams_ = 0;
   StreamShape<T> stream_[kMostMembers]; ///< the first streams_ of them are written
 };
