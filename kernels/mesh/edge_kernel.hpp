@@ -144,7 +144,7 @@ SIMDBEZIER_PART void side_registers(const detail::EdgeTask<ScalarOf<V>>& task,
 
 /// Turns sums of unit normals into their directions. A single term stays as it is, and so does the
 /// first one where the sum is too short. The operations are those of finish_sums() in
-/// src/mesh/vertices/merged_normals.hpp, which merges the other vertices' normals.
+/// src/mesh/vertices/waiting_vertices.hpp, which merges the other vertices' normals.
 template <typename V>
 SIMDBEZIER_INLINE void finish_sum(std::size_t terms, const V first[3], V sum[3]) {
   using T = ScalarOf<V>;

@@ -1,11 +1,10 @@
 // Samples of patches of few cells: inner points, edges and corners alike, as one grid that ends at
 // the patch's edges. A kernel that takes a register of such patches needs as long for all of them
-// as another one for a single side.
+// as another one for a single side. Of other patches, there are the corners.
 //
-// A vertex on an edge is asked for by both patches. Consecutive patches have neighbours that are
-// consecutive, so blocks of them are evaluated and kept for a while. In a block, patches of equal
-// rates go together. Of patches with more cells, and where too many rates differ, it holds the
-// corners.
+// A vertex on the boundary is asked for by each of its patches. Consecutive patches have neighbours
+// that are consecutive, so blocks of them are evaluated and kept for a while. In a block, patches
+// of equal rates go together. Where too many rates differ, it holds corners only.
 #pragma once
 
 #include <algorithm>
@@ -15,45 +14,33 @@
 #include <numeric>
 
 #include "src/mesh/layout/mesh_data.hpp"
-#include "src/mesh/vertices/merged_normals.hpp"
-#include "src/mesh/vertices/parameter_lines.hpp"
 #include "src/mesh/vertices/patch_copies.hpp"
 #include "src/mesh/vertices/patch_runner.hpp"
+#include "src/mesh/vertices/vertex_samples.hpp"
 
 namespace simdbezier::detail {
 
-/// The samples of one patch, in planes of unit stride: those of positions, then those of normals.
-/// Planes that are not wanted are there, but have no values.
+/// The samples of one patch, row after row.
 template <typename T>
 struct ClosedGrid {
-  /// Patches of at most so many cells in each direction have all of their samples.
-  static constexpr std::uint32_t kMostRate = 5;
-  static constexpr std::size_t kPatches = 64; ///< of a block
-  static constexpr std::size_t kMostSamples = (kMostRate + 1) * (kMostRate + 1);
-  /// Values of a plane: a register of patches is written, however few of them there are.
-  static constexpr std::size_t kPlane = (kPatches + kMaxLanes) * kMostSamples;
+  static constexpr std::uint32_t kNone = ~0U;
 
-  const T* first;
-  std::uint8_t columns;
-  std::uint8_t rows;
-  bool whole;              ///< not only the patch's corners
-  std::uint8_t corners[4]; ///< their samples
+  const VertexSample<T>* first = nullptr;
+  std::uint32_t patch = kNone;
+  T sign = 1;         ///< of normals
+  bool whole = false; ///< not only the patch's corners
+  std::uint8_t columns = 0;
+  std::uint8_t corners[4] = {}; ///< their samples
 
-  [[nodiscard]] SampleRun<T> corner(std::size_t corner, bool turned) const noexcept {
-    return run(corners[corner], 0, turned);
+  [[nodiscard]] SampleRun<T> corner(std::size_t corner) const noexcept {
+    return {first + corners[corner], 0, sign};
   }
   /// The samples of a side between its ends. reversed: from its second end on.
-  [[nodiscard]] SampleRun<T> side(std::size_t side, bool reversed, bool turned) const noexcept {
+  [[nodiscard]] SampleRun<T> side(std::size_t side, bool reversed) const noexcept {
     const std::ptrdiff_t along = runs_in_u(side) ? 1 : columns;
     const std::ptrdiff_t step = reversed ? -along : along;
-    return run(corners[kSideCorners[side % kPatchEdges][reversed ? 1 : 0]] + step, step, turned);
-  }
-
-private:
-  [[nodiscard]] SampleRun<T> run(std::ptrdiff_t sample, std::ptrdiff_t step,
-                                 bool turned) const noexcept {
-    const T* const at = first + sample;
-    return {at, at + 3 * kPlane, kPlane, step, turned ? T(-1) : T(1)};
+    const std::size_t end = kSideCorners[side % kPatchEdges][reversed ? 1 : 0];
+    return {first + corners[end] + step, step, sign};
   }
 };
 
@@ -61,46 +48,29 @@ private:
 template <typename T>
 class ClosedGrids {
 public:
-  static constexpr std::uint32_t kMostRate = ClosedGrid<T>::kMostRate;
+  /// Patches of at most so many cells in each direction have all of their samples.
+  static constexpr std::uint32_t kMostRate = 5;
 
   [[nodiscard]] static std::size_t bytes(const MeshData& mesh) noexcept {
-    return blocks_bytes(mesh) + PatchCopies<T>::bytes(kPatches + kMaxLanes);
+    return samples_bytes(mesh) + PatchCopies<T>::bytes(kPatches + kMaxLanes);
   }
-  ClosedGrids(const MeshData& mesh, PatchRunner<T>& runner, ParameterLines<T>& lines,
-              bool positions, bool normals, unsigned char* memory) noexcept
-      : mesh_(mesh), runner_(runner), lines_(lines), positions_(positions), normals_(normals),
-        exists_(runner.takes_closed_grids()), values_(reinterpret_cast<T*>(memory)),
-        copies_(kPatches + kMaxLanes, memory + blocks_bytes(mesh)) {
-    std::fill_n(known_, kBlocks, kNone);
-    std::fill_n(useless_, kBlocks, kNone);
-  }
+  ClosedGrids(const MeshData& mesh, PatchRunner<T>& runner, bool normals,
+              unsigned char* memory) noexcept
+      : mesh_(mesh), topology_(*mesh.topology.data()), runner_(runner), normals_(normals),
+        samples_(reinterpret_cast<VertexSample<T>*>(memory)), block_samples_(block_samples(mesh)),
+        copies_(kPatches + kMaxLanes, memory + samples_bytes(mesh)) {}
 
-  /// Whether the grids of two patches can be there at once.
-  [[nodiscard]] static bool are_apart(std::size_t a, std::size_t b) noexcept {
-    return a / kPatches == b / kPatches || a / kPatches % kBlocks != b / kPatches % kBlocks;
-  }
-  /// Says that so many grids are asked for, besides those that of() is.
-  void count(std::size_t asked) noexcept { asked_ += asked; }
-  /// Whether a patch's grid is there, and the grid.
-  [[nodiscard]] bool is_known(std::size_t patch) const noexcept {
-    const std::size_t number = patch / kPatches;
-    return known_[number % kBlocks] == number;
-  }
-  [[nodiscard]] const ClosedGrid<T>& known(std::size_t patch) const noexcept {
-    return grids_[patch % (kBlocks * kPatches)];
-  }
-  /// A patch's grid; null where there is none, or where blocks are asked for too seldom to pay.
-  /// Valid until one is asked for that is not apart.
-  const ClosedGrid<T>* of(std::size_t patch) noexcept {
-    ++asked_;
-    return is_known(patch) || find(patch / kPatches) ? &known(patch) : nullptr;
+  /// Says that one more patch's vertices are asked for.
+  void count_patch() noexcept { ++passed_; }
+  /// A patch's grid. If another one is asked for, it is still there if its `patch` is the same.
+  [[nodiscard]] const ClosedGrid<T>& of(std::size_t patch) noexcept {
+    const ClosedGrid<T>& grid = grids_[place_of(patch)];
+    return grid.patch == patch ? grid : find(patch);
   }
 
 private:
-  static constexpr std::size_t kPatches = ClosedGrid<T>::kPatches;
-  static constexpr std::size_t kPlane = ClosedGrid<T>::kPlane;
+  static constexpr std::size_t kPatches = 64; ///< of a block
   static constexpr std::size_t kBlocks = 8;
-  static constexpr std::size_t kNone = ~std::size_t(0);
 
   struct Rates {
     std::uint32_t u;
@@ -114,32 +84,101 @@ private:
     }
     [[nodiscard]] std::size_t key() const noexcept { return (v - 1) * kMostRate + u - 1; }
     [[nodiscard]] std::size_t samples() const noexcept { return std::size_t{u + 1} * (v + 1); }
-    /// A grid but for its place.
-    [[nodiscard]] ClosedGrid<T> grid() const noexcept {
-      const auto byte = [](std::uint32_t value) { return static_cast<std::uint8_t>(value); };
-      const std::uint32_t last_row = (u + 1) * v;
-      return {nullptr,
-              byte(u + 1),
-              byte(v + 1),
-              false,
-              {0, byte(u), byte(last_row), byte(last_row + u)}};
-    }
   };
-  /// Patches of equal rates.
+  /// Patches of a block, or copies of them, one after the other.
   struct Group {
-    std::size_t first; ///< patch of the set, or copy
+    std::size_t first;
     std::size_t count;
-    bool copied;
     Rates rates;
   };
 
-  static std::size_t blocks_bytes(const MeshData& mesh) noexcept {
-    return std::min(kBlocks, mesh.patches() / kPatches + 1) * 6 * kPlane * sizeof(T);
+  /// A register of patches is written, however few of them there are.
+  static std::size_t block_samples(const MeshData& mesh) noexcept {
+    const std::size_t side = std::min(kMostRate, mesh.most_rate()) + std::size_t{1};
+    return (kPatches + kMaxLanes) * side * side;
   }
-  /// Finds the keys of the grids' rates in a block. They are those of corners if that is better: to
-  /// copy doubles takes as long as what it saves; floats are copied unless registers remain too
-  /// empty. Returns the set of all keys.
-  std::uint32_t find_keys(std::size_t first, std::size_t count, std::uint8_t* keys) const noexcept {
+  /// A single patch's corners follow the blocks.
+  static std::size_t samples_bytes(const MeshData& mesh) noexcept {
+    const std::size_t blocks = std::min(kBlocks, mesh.patches() / kPatches + 1);
+    return whole_lines((blocks * block_samples(mesh) + kPatchCorners) * sizeof(VertexSample<T>));
+  }
+
+  /// Patches that are a power of two apart, as neighbours may be, do not share a place.
+  static std::size_t place_of(std::size_t patch) noexcept {
+    constexpr std::size_t kAll = kBlocks * kPatches;
+    return (patch + patch / kAll * kPatches) % kAll;
+  }
+  /// Makes a grid known, with its block unless neighbours are so far apart that blocks do not pay.
+  [[gnu::noinline]] const ClosedGrid<T>& find(std::size_t patch) noexcept {
+    if (kPatches * filled_ <= 4 * (passed_ + kPatches)) {
+      ++filled_;
+      const std::size_t first = place_of(patch) / kPatches * kPatches;
+      fill(patch / kPatches * kPatches, samples_ + first / kPatches * block_samples_,
+           grids_ + first);
+      return grids_[place_of(patch)];
+    }
+    if (single_.patch != patch) {
+      const std::size_t blocks = std::min(kBlocks, mesh_.patches() / kPatches + 1);
+      const Group group{patch, 1, {1, 1}};
+      VertexSample<T>* const samples = samples_ + blocks * block_samples_;
+      evaluate(group, nullptr, samples);
+      single_ = grid_of(group.rates);
+      finish(patch, group.rates, samples, single_);
+    }
+    return single_;
+  }
+
+  void fill(std::size_t first, VertexSample<T>* samples, ClosedGrid<T>* grids) noexcept {
+    const std::size_t count = std::min(kPatches, mesh_.patches() - first);
+    const std::uint32_t bucket = runner_.bucket_of(first);
+    const bool together = runner_.together(first, count) == count;
+    bool can_copy = runner_.takes_closed_grids(bucket);
+    for (std::size_t k = 1; k < count && !together; ++k) {
+      can_copy = can_copy && runner_.bucket_of(first + k) == bucket;
+    }
+    std::uint8_t keys[kPatches];
+    const std::uint32_t found = find_keys(first, count, can_copy, keys);
+    const bool alike = std::popcount(found) == 1;
+    std::size_t end[Rates::kKeys + 1] = {}; // of each group, once its members are in their places
+    std::uint8_t member[kPatches] = {};     // of the groups, one after the other
+    if (alike) {
+      std::iota(member, member + count, std::uint8_t(0));
+      end[keys[0]] = count;
+    } else {
+      sort_members(keys, count, member, end);
+    }
+    const bool copied = can_copy && !(alike && together);
+    if (copied) {
+      const std::size_t last = keys[member[count - 1]];
+      make_copies(first, member, count, count - (last == 0 ? 0 : end[last - 1]));
+    }
+    for (std::size_t at = 0; at < count;) {
+      const Rates rates = Rates::of_key(keys[member[at]]);
+      std::size_t behind = end[keys[member[at]]];
+      if (copied) {
+        evaluate({at, behind - at, rates}, &bucket, samples);
+      } else {
+        const std::size_t patch = first + member[at];
+        std::size_t more = 1;
+        while (at + more < behind && member[at + more] == member[at] + more) {
+          ++more;
+        }
+        behind = at + runner_.together(patch, more);
+        evaluate({patch, behind - at, rates}, nullptr, samples);
+      }
+      const ClosedGrid<T> grid = grid_of(rates);
+      for (; at < behind; ++at, samples += rates.samples()) {
+        grids[member[at]] = grid;
+        finish(first + member[at], rates, samples, grids[member[at]]);
+      }
+    }
+    std::fill(grids + count, grids + kPatches, ClosedGrid<T>{});
+  }
+  /// Finds the keys of the grids' rates in a block. They are those of corners if that is better:
+  /// where no kernel takes closed grids, but one takes edges; to copy doubles takes as long as what
+  /// it saves; floats are copied unless registers remain too empty. Returns the set of all keys.
+  std::uint32_t find_keys(std::size_t first, std::size_t count, bool can_copy,
+                          std::uint8_t* keys) const noexcept {
     const std::uint32_t* const nu = mesh_.nu.data() + first;
     const std::uint32_t* const nv = mesh_.nv.data() + first;
     std::uint32_t found = 0;
@@ -150,69 +189,13 @@ private:
     }
     constexpr std::size_t kLeastMembers = 5;
     const auto groups = static_cast<std::size_t>(std::popcount(found));
-    if (groups == 1 || (sizeof(T) == sizeof(float) && kLeastMembers * groups <= count)) {
+    const bool pays =
+        groups == 1 || (sizeof(T) == sizeof(float) && kLeastMembers * groups <= count);
+    if (can_copy ? pays : !runner_.has_edges(runner_.bucket_of(first))) {
       return found;
     }
     std::fill_n(keys, count, std::uint8_t(0));
     return 1;
-  }
-
-  /// Makes a block of grids known. False where there are none.
-  [[gnu::noinline]] bool find(std::size_t number) noexcept {
-    const std::size_t slot = number % kBlocks;
-    if (!exists_ || useless_[slot] == number || kPatches * filled_ > asked_ + 4 * kPatches) {
-      return false;
-    }
-    const bool filled = fill(number);
-    (filled ? known_ : useless_)[slot] = number;
-    return filled;
-  }
-  /// False where the patches are not all of one shape that kernels for closed grids know.
-  bool fill(std::size_t number) noexcept {
-    const std::size_t first = number * kPatches;
-    const std::size_t count = std::min(kPatches, mesh_.patches() - first);
-    const std::uint32_t bucket = runner_.edge_bucket(first);
-    const bool together = runner_.together(first, count) == count;
-    for (std::size_t k = 1; k < count && !together; ++k) {
-      if (runner_.edge_bucket(first + k) != bucket) {
-        return false;
-      }
-    }
-    if (bucket == PatchRunner<T>::kNoEdges) {
-      return false;
-    }
-    ++filled_;
-    std::uint8_t keys[kPatches];
-    const std::uint32_t found = find_keys(first, count, keys);
-    std::size_t end[Rates::kKeys + 1] = {}; // of each group, once its members are in their places
-    std::uint8_t member[kPatches] = {};     // of the groups, one after the other
-    const bool alike = std::popcount(found) == 1;
-    if (alike) {
-      std::iota(member, member + count, std::uint8_t(0));
-      end[keys[0]] = count;
-    } else {
-      sort_members(keys, count, member, end);
-    }
-    const bool copied = !together || !alike;
-    if (copied) {
-      const std::size_t last = keys[member[count - 1]];
-      make_copies(first, member, count, count - (last == 0 ? 0 : end[last - 1]));
-    }
-    const std::size_t slot = number % kBlocks;
-    T* values = values_ + slot * 6 * kPlane;
-    for (std::size_t at = 0; at < count;) {
-      const Rates rates = Rates::of_key(keys[member[at]]);
-      const std::size_t behind = end[keys[member[at]]];
-      evaluate(bucket, {copied ? at : first, behind - at, copied, rates}, values);
-      ClosedGrid<T> grid = rates.grid();
-      for (; at < behind; ++at, values += rates.samples()) {
-        const std::size_t patch = first + member[at];
-        grid.first = values;
-        grid.whole = mesh_.nu[patch] == rates.u && mesh_.nv[patch] == rates.v;
-        grids_[slot * kPatches + member[at]] = grid;
-      }
-    }
-    return true;
   }
   static void sort_members(const std::uint8_t* keys, std::size_t count, std::uint8_t* member,
                            std::size_t (&end)[Rates::kKeys + 1]) noexcept {
@@ -236,17 +219,16 @@ private:
       copy[member[k]] = static_cast<std::uint8_t>(k);
     }
     for (std::size_t k = 0; k < count; ++k) {
-      runner_.copy(first + k, copies_, copy[k], normals_);
+      runner_.copy(first + k, copies_, copy[k]);
     }
     for (std::size_t k = last_count; k < runner_.lanes(); ++k) {
-      runner_.copy(first + member[count - 1], copies_, count + k - last_count, normals_);
+      runner_.copy(first + member[count - 1], copies_, count + k - last_count);
     }
   }
 
-  /// Copies behind the last one of a group fill its register; the next group writes over their
-  /// samples.
-  void evaluate(std::uint32_t bucket, const Group& group, T* values) noexcept {
-    const PieceTarget<T> to = target(values);
+  /// bucket: that of the copies; null where they are patches. Copies behind the last one of a group
+  /// fill its register; the next group writes over their samples.
+  void evaluate(const Group& group, const std::uint32_t* bucket, VertexSample<T>* to) noexcept {
     T x[kMostRate + 1 + kMaxLanes];
     T y[kMostRate + 1 + kMaxLanes];
     const auto [nu, nv] = group.rates;
@@ -259,39 +241,60 @@ private:
     const bool inner = nv > 1;
     const PieceParameters<T> piece{x, nu + std::size_t{1}, inner ? runs : ends,
                                    inner ? std::size_t{3} : std::size_t{2}, nv + std::size_t{1}};
-    if (group.copied) {
-      runner_.run(copies_, bucket, group.first, std::max(group.count, runner_.lanes()), piece, to);
+    if (bucket != nullptr) {
+      runner_.sample(copies_, *bucket, group.first, std::max(group.count, runner_.lanes()), piece,
+                     to);
     } else {
-      runner_.run(group.first, group.count, piece, to);
+      runner_.sample(group.first, group.count, piece, to);
     }
   }
-  void fill_line(std::uint32_t rate, T* line) noexcept {
-    line[0] = T(-0.5);
-    std::copy_n(lines_.line(rate), rate - 1, line + 1);
-    std::fill_n(line + rate, kMaxLanes + 1, T(0.5));
-  }
-  [[nodiscard]] PieceTarget<T> target(T* values) const noexcept {
-    PieceTarget<T> to;
-    for (std::size_t c = 0; c < 3; ++c) {
-      to.position.component[c] = positions_ ? values + c * kPlane : nullptr;
-      to.normal.component[c] = normals_ ? values + (3 + c) * kPlane : nullptr;
+  static void fill_line(std::uint32_t rate, T* line) noexcept {
+    for (std::uint32_t i = 0; i <= rate; ++i) {
+      line[i] = uniform_parameter<T>(i, rate);
     }
-    return to;
+    std::fill_n(line + rate + 1, kMaxLanes, T(0.5));
+  }
+  /// A grid of some rates.
+  static ClosedGrid<T> grid_of(const Rates& rates) noexcept {
+    const auto byte = [](std::uint32_t value) { return static_cast<std::uint8_t>(value); };
+    const std::uint32_t last_row = (rates.u + 1) * rates.v;
+    ClosedGrid<T> grid;
+    grid.columns = byte(rates.u + 1);
+    grid.corners[1] = byte(rates.u);
+    grid.corners[2] = byte(last_row);
+    grid.corners[3] = byte(last_row + rates.u);
+    return grid;
+  }
+  /// Makes it that of a patch, and finds normals in corners whose sides count as points.
+  void finish(std::size_t patch, const Rates& rates, VertexSample<T>* samples,
+              ClosedGrid<T>& grid) const noexcept {
+    grid.first = samples;
+    grid.patch = static_cast<std::uint32_t>(patch);
+    grid.sign = topology_.is_turned(patch) ? T(-1) : T(1);
+    grid.whole = mesh_.nu[patch] == rates.u && mesh_.nv[patch] == rates.v;
+    for (std::size_t k = 0; k < kPatchCorners && normals_ && !topology_.displacement.empty(); ++k) {
+      const unsigned points = topology_.short_sides_at(kPatchCorners * patch + k);
+      if (points != 0) {
+        T normal[3];
+        runner_.find_corner_normal(patch, k, points, normal);
+        for (std::size_t c = 0; c < 3; ++c) {
+          samples[grid.corners[k]].normal[c] = normal[c];
+        }
+      }
+    }
   }
 
   const MeshData& mesh_;
+  const TopologyData& topology_;
   PatchRunner<T>& runner_;
-  ParameterLines<T>& lines_;
-  bool positions_;
   bool normals_;
-  bool exists_;
-  T* values_;
+  VertexSample<T>* samples_;
+  std::size_t block_samples_;
   PatchCopies<T> copies_;
-  std::size_t known_[kBlocks];   ///< blocks whose grids are there
-  std::size_t useless_[kBlocks]; ///< blocks that cannot have any
   ClosedGrid<T> grids_[kBlocks * kPatches];
+  ClosedGrid<T> single_;
   std::size_t filled_ = 0;
-  std::size_t asked_ = 0;
+  std::size_t passed_ = 0;
 };
 
 } // namespace simdbezier::detail

@@ -76,14 +76,13 @@ struct CreaseGroups {
 template <typename T>
 class CreaseFinder {
 public:
-  CreaseFinder(const MeshData& mesh, double angle, const Planes<T>& normals,
-               CreaseGroups& groups) noexcept
+  CreaseFinder(const MeshData& mesh, double angle, CreaseGroups& groups) noexcept
       : topology_(*mesh.topology.data()), always_(angle >= radians(180)), cosine_(std::cos(angle)),
-        sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
+        sine_(std::sin(angle)), groups_(groups) {}
 
   /// Gives groups to the patches at a corner, or at each point of an edge. sample_of_corner:
   /// scratch for one value a corner that is joined with others.
-  void group(const BoundaryEntry& entry, std::uint32_t* sample_of_corner) const noexcept {
+  void group(const BoundaryEntry<T>& entry, std::uint32_t* sample_of_corner) const noexcept {
     if (entry.corner) {
       group_corner(entry, sample_of_corner);
     } else if (entry.members > 1) {
@@ -94,15 +93,16 @@ public:
   }
 
 private:
-  [[nodiscard]] Point3 normal(std::size_t sample) const noexcept {
+  static Point3 normal(const VertexSample<T>& sample) noexcept {
     Point3 n;
     for (std::size_t c = 0; c < 3; ++c) {
-      n.x[c] = static_cast<double>(normals_.component[c][sample]);
+      n.x[c] = static_cast<double>(sample.normal[c]);
     }
     return n;
   }
   /// Whether two samples' normals may be merged.
-  [[nodiscard]] bool join(std::size_t a, std::size_t b, bool against) const noexcept {
+  [[nodiscard]] bool join(const VertexSample<T>& a, const VertexSample<T>& b,
+                          bool against) const noexcept {
     if (always_) {
       return true;
     }
@@ -115,17 +115,19 @@ private:
     return dot(x, x) == 0 || dot(y, y) == 0 || std::sqrt(dot(z, z)) * cosine_ < along * sine_;
   }
   /// join() of normals at two sides of one edge.
-  [[nodiscard]] bool sides_join(std::uint32_t a, std::size_t sample_a, std::uint32_t b,
-                                std::size_t sample_b) const noexcept {
+  [[nodiscard]] bool sides_join(std::uint32_t a, const VertexSample<T>& sample_a, std::uint32_t b,
+                                const VertexSample<T>& sample_b) const noexcept {
     const bool two = topology_.sides_of(topology_.sides[a].edge()).size() == 2;
     return !(two && topology_.disagree(a, b)) &&
            join(sample_a, sample_b,
                 topology_.is_turned(a / kPatchEdges) != topology_.is_turned(b / kPatchEdges));
   }
 
-  void group_point(const BoundaryEntry& entry, std::uint32_t k) const noexcept {
+  void group_point(const BoundaryEntry<T>& entry, std::uint32_t k) const noexcept {
     const auto sides = topology_.sides_of(entry.place);
-    const auto sample = [&](std::size_t m) { return entry.first + m * entry.points + k; };
+    const auto sample = [&](std::size_t m) -> const VertexSample<T>& {
+      return entry.samples[m * entry.points + k];
+    };
     const auto group_of = [&](std::size_t m) -> std::uint32_t& {
       return groups_.side_groups[groups_.side_first[sides[m]] + k];
     };
@@ -147,9 +149,9 @@ private:
   }
 
   /// Neighbours across edges whose normals may be merged, and their neighbours, share a vertex.
-  void group_corner(const BoundaryEntry& entry, std::uint32_t* sample_of_corner) const noexcept {
+  void group_corner(const BoundaryEntry<T>& entry, std::uint32_t* sample_of_corner) const noexcept {
     std::vector<std::uint32_t>& lowest = groups_.corners;
-    std::uint32_t sample = entry.first;
+    std::uint32_t sample = 0;
     topology_.for_joined(entry.place, [&](std::size_t corner) {
       lowest[corner] = static_cast<std::uint32_t>(corner);
       sample_of_corner[corner] = sample++;
@@ -163,8 +165,8 @@ private:
     topology_.for_joined(entry.place, [&](std::size_t corner) {
       topology_.for_neighbours(corner, [&](std::size_t side, std::size_t other, std::uint32_t to) {
         if (topology_.sides[side].collapsed() ||
-            sides_join(static_cast<std::uint32_t>(side), sample_of_corner[corner],
-                       static_cast<std::uint32_t>(other), sample_of_corner[to])) {
+            sides_join(static_cast<std::uint32_t>(side), entry.samples[sample_of_corner[corner]],
+                       static_cast<std::uint32_t>(other), entry.samples[sample_of_corner[to]])) {
           const std::uint32_t a = find(static_cast<std::uint32_t>(corner));
           const std::uint32_t b = find(to);
           lowest[std::max(a, b)] = std::min(a, b);
@@ -180,7 +182,6 @@ private:
   bool always_;
   double cosine_;
   double sine_;
-  const Planes<T>& normals_;
   CreaseGroups& groups_;
 };
 

@@ -83,7 +83,7 @@ class FormattedWork {
 public:
   FormattedWork(const PatchKernels<T>& kernels, const VertexTask<T>& task,
                 const FormattedColumns& out) noexcept
-      : out_(out), task_(task), kernels_(kernels), sizes_(task, kChunk) {
+      : out_(out), task_(task), kernels_(kernels), chunk_(task.chunk(kChunk)) {
     task_.kernels = &kernels_;
   }
   FormattedWork(const FormattedWork&) = delete;
@@ -94,12 +94,12 @@ public:
   }
   [[nodiscard]] std::size_t duration() const noexcept { return duration_of(units(), 4); }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
-    return FormattingSink<T>::bytes(sizes_.chunk) + Worker::scratch_bytes(task_, sizes_);
+    return FormattingSink<T>::bytes(chunk_) + Worker::scratch_bytes(task_);
   }
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    FormattingSink<T> sink(kernels_.table->isa, out_, task_.first_vertex, sizes_.chunk, scratch);
-    Worker worker(task_, sizes_, sink, scratch + FormattingSink<T>::bytes(sizes_.chunk));
+    FormattingSink<T> sink(kernels_.table->isa, out_, task_.first_vertex, chunk_, scratch);
+    Worker worker(task_, chunk_, sink, scratch + FormattingSink<T>::bytes(chunk_));
     return worker.run(task_.first_vertex + begin, task_.first_vertex + end);
   }
 
@@ -110,7 +110,7 @@ private:
   const FormattedColumns& out_;
   VertexTask<T> task_;
   PatchKernels<T> kernels_;
-  VertexSizes<T> sizes_;
+  std::size_t chunk_; ///< vertices
 };
 
 template <typename T>

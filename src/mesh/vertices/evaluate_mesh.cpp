@@ -11,6 +11,9 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
+/// Places of vectors in the lists of outputs that calls here deliver.
+enum Delivered : std::uint8_t { kPositions, kNormals, kParameters, kDelivered };
+
 /// A delivery to the caller's memory, as a sink of vertices.
 template <typename T>
 class DeliverySink {
@@ -23,12 +26,13 @@ public:
 
   void begin(std::size_t vertex, VertexTarget<T>& to) noexcept {
     const Planes<T>* const planes = delivery_.begin(vertex - first_vertex_);
-    to = {planes[output_index(Output::position)],
-          planes[output_index(Output::normal)],
-          plan_.record(),
-          vertex,
-          parameters_,
-          first_vertex_};
+    to = {planes[kPositions], planes[kNormals], plan_.record(), vertex, parameters_, first_vertex_};
+    if (plan_.is_staged(kParameters)) {
+      std::uint32_t* const patch = parameters_.patch;
+      to.parameters = {planes[kParameters].component[0], planes[kParameters].component[1], 1,
+                       patch == nullptr ? nullptr : patch + (vertex - first_vertex_)};
+      to.parameters_first = vertex;
+    }
   }
   void end(std::size_t vertices) noexcept { delivery_.end(vertices); }
   void finish() noexcept { delivery_.finish(); }
@@ -47,13 +51,12 @@ class MeshWork {
 public:
   MeshWork(const PatchKernels<T>& kernels, const OutputList<T>& out, const VertexTask<T>& task,
            const ParameterOutputs<T>& parameters, Way way) noexcept
-      : outputs_(out, way), task_(task), parameters_(parameters), kernels_(kernels),
-        sizes_(task, 0) {
+      : outputs_(out, way), task_(task), parameters_(parameters), kernels_(kernels) {
     task_.kernels = &kernels_;
     outputs_.put_directly(kernels_.direct_rows(task.mesh->least_nu - 1));
-    sizes_ = VertexSizes<T>(task_, std::min(chunk(), kMostChunk));
+    chunk_ = task_.chunk(std::min(chunk(), kMostChunk));
     delivery_bytes_ = whole_lines(
-        Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), sizes_.chunk));
+        Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), chunk_));
   }
   MeshWork(const MeshWork&) = delete;
   MeshWork& operator=(const MeshWork&) = delete;
@@ -64,13 +67,13 @@ public:
   [[nodiscard]] std::size_t duration() const noexcept { return duration_of(units(), 2); }
   [[nodiscard]] std::size_t grain() const noexcept { return 1; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
-    return delivery_bytes_ + VertexWorker<T, DeliverySink<T>>::scratch_bytes(task_, sizes_);
+    return delivery_bytes_ + VertexWorker<T, DeliverySink<T>>::scratch_bytes(task_);
   }
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    DeliverySink<T> sink(outputs_, *kernels_.table, sizes_.chunk, parameters_, task_.first_vertex,
+    DeliverySink<T> sink(outputs_, *kernels_.table, chunk_, parameters_, task_.first_vertex,
                          scratch);
-    VertexWorker<T, DeliverySink<T>> worker(task_, sizes_, sink, scratch + delivery_bytes_);
+    VertexWorker<T, DeliverySink<T>> worker(task_, chunk_, sink, scratch + delivery_bytes_);
     return worker.run(task_.first_vertex + begin, task_.first_vertex + end);
   }
 
@@ -90,7 +93,7 @@ private:
   VertexTask<T> task_;
   ParameterOutputs<T> parameters_;
   PatchKernels<T> kernels_;
-  VertexSizes<T> sizes_;
+  std::size_t chunk_ = 0; ///< vertices
   std::size_t delivery_bytes_ = 0;
 };
 
@@ -143,6 +146,16 @@ struct VertexAttributes {
     }
     return Status::ok;
   }
+  /// The parameters where they are members of the vertices that vectors are members of, so that
+  /// whole vertices are put together; nothing where they are not.
+  [[nodiscard]] Vectors<T> beside(const Outputs<T>& vectors) const noexcept {
+    const auto joins = [this](const Vectors<T>& other) {
+      return other.wanted() && other.stride == parameters.stride;
+    };
+    return parameters.stride != 1 && (joins(vectors.position) || joins(vectors.normal))
+               ? parameters
+               : Vectors<T>();
+  }
   [[nodiscard]] MemoryRange range(std::size_t vertices) const noexcept {
     return {patch.first, vertices * sizeof(std::uint32_t)};
   }
@@ -166,7 +179,10 @@ struct MeshGiven {
 template <typename T>
 class MeshCall {
 public:
-  explicit MeshCall(const MeshGiven<T>& in) noexcept : in_(in), out_(in_.vectors) {}
+  explicit MeshCall(const MeshGiven<T>& in) noexcept
+      : in_(in), out_(in_.vectors), delivered_{in_.vectors.position, in_.vectors.normal,
+                                               in_.attributes.beside(in_.vectors)},
+        delivery_(delivered_, kDelivered) {}
   MeshCall(const MeshCall&) = delete;
   MeshCall& operator=(const MeshCall&) = delete;
 
@@ -193,11 +209,11 @@ public:
   }
   [[nodiscard]] bool empty() const noexcept { return last_vertex() == first_vertex(); }
   [[nodiscard]] std::size_t written() const noexcept {
-    return written_bytes(out_, last_vertex() - first_vertex());
+    return written_bytes(delivery_, last_vertex() - first_vertex());
   }
   [[nodiscard]] CallKind kind() const noexcept {
     return kind_of_outputs(CallName::mesh, out_, *request_.table, false)
-        .add(static_cast<std::uint64_t>(in_.values));
+        .add(2 * static_cast<std::uint64_t>(in_.values) + (delivery_.wants(kParameters) ? 1 : 0));
   }
   [[nodiscard]] MeshWork<T> plan(Way way) const noexcept {
     VertexTask<T> task{};
@@ -207,7 +223,7 @@ public:
     task.values = in_.values;
     task.first_vertex = first_vertex();
     task.last_vertex = last_vertex();
-    return MeshWork<T>({*in_.set.storage(), request_, out_, in_.options}, out_, task,
+    return MeshWork<T>({*in_.set.storage(), request_, out_, in_.options}, delivery_, task,
                        in_.attributes.outputs(), way);
   }
 
@@ -220,7 +236,9 @@ private:
   }
 
   MeshGiven<T> in_;
-  OutputList<T> out_;
+  OutputList<T> out_; ///< what kernels compute
+  Vectors<T> delivered_[kDelivered];
+  OutputList<T> delivery_;
   Request<T> request_;
 };
 

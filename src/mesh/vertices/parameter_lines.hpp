@@ -1,4 +1,5 @@
-// Uniform parameters between two ends, kept for the numbers of segments that occur often.
+// Uniform parameters between two ends, and those of edges with two rates, kept for the rates that
+// occur often.
 #pragma once
 
 #include <algorithm>
@@ -10,115 +11,111 @@
 
 namespace simdbezier::detail {
 
-/// One thread's lines of half-centred parameters of the inner points i/n, 0 < i < n.
+/// The points between the ends of an edge.
+template <typename T>
+struct ParameterLine {
+  const T* along; ///< half-centred parameters, then kMaxLanes more readable values
+  /// The same points as shares of the edge, from 0 to 1. Their mirror images are among them, so
+  /// that backwards they are those of a side in the other direction.
+  const T* shares;
+};
+
+/// A line in the making.
+template <typename T>
+struct LineMemory {
+  T* along;
+  T* shares;
+
+  [[nodiscard]] static std::size_t values(std::size_t most_segments) noexcept {
+    return 2 * (most_segments + kMaxLanes);
+  }
+  LineMemory(T* memory, std::size_t most_segments) noexcept
+      : along(memory), shares(memory + most_segments + kMaxLanes) {}
+
+  void put(std::size_t point, std::uint32_t numerator, std::uint32_t denominator) const noexcept {
+    along[point] = uniform_parameter<T>(numerator, denominator);
+    shares[point] = static_cast<T>(numerator) / static_cast<T>(denominator);
+  }
+  [[nodiscard]] ParameterLine<T> finish(std::size_t points) const noexcept {
+    std::fill_n(along + points, kMaxLanes, points > 0 ? along[points - 1] : T(0));
+    return {along, shares};
+  }
+};
+
+/// One thread's lines.
 template <typename T>
 class ParameterLines {
 public:
-  /// Values of scratch, for up to `most` segments.
+  /// Larger rates have no line that is kept.
+  static constexpr std::uint32_t kMost = 63;
+
+  /// Values of scratch, for up to `most` segments of a single rate.
   [[nodiscard]] static std::size_t memory_values(std::size_t most) noexcept {
-    return kSmallValues + 2 * (most + kMaxLanes);
+    return kSlots * kSlotValues + 2 * LineMemory<T>::values(most);
   }
-  explicit ParameterLines(T* memory, std::size_t most) noexcept
-      : memory_(memory), large_{memory + kSmallValues, memory + kSmallValues + most + kMaxLanes} {}
-
-  /// Whether the line of n segments stays valid.
-  [[nodiscard]] static bool is_kept(std::size_t n) noexcept { return n <= kSmall; }
-  /// n - 1 values, then kMaxLanes more readable ones. Valid until the second call after it.
-  const T* line(std::size_t n) noexcept {
-    if (!is_kept(n)) {
-      turn_ = large_n_[turn_] == n ? turn_ : 1 - turn_;
-      if (large_n_[turn_] != n) {
-        large_n_[turn_] = n;
-        fill(n, large_[turn_]);
-      }
-      return large_[turn_];
-    }
-    T* const small = memory_ + place(n);
-    if ((known_ >> n & 1U) == 0) {
-      known_ |= std::uint64_t{1} << n;
-      fill(n, small);
-    }
-    return small;
-  }
-
-private:
-  static constexpr std::size_t kSmall = 63;
-  /// Values of the lines before that of n segments.
-  static constexpr std::size_t place(std::size_t n) noexcept {
-    return n * (n - 1) / 2 + n * kMaxLanes;
-  }
-  static constexpr std::size_t kSmallValues = place(kSmall + 1);
-
-  static void fill(std::size_t n, T* to) noexcept {
-    for (std::size_t i = 1; i < n; ++i) {
-      to[i - 1] = uniform_parameter<T>(i, n);
-    }
-    std::fill_n(to + n - 1, kMaxLanes, n > 1 ? to[n - 2] : T(0));
-  }
-
-  T* memory_;
-  T* large_[2];
-  std::size_t large_n_[2] = {0, 0};
-  std::size_t turn_ = 0;
-  std::uint64_t known_ = 0; ///< a bit for each n
-};
-
-/// One thread's lines of the parameters of edges that have two rates, which may be equal, for pairs
-/// of small rates.
-template <typename T>
-class UnionLines {
-public:
-  static constexpr std::uint32_t kMost = 47;
-
-  [[nodiscard]] static std::size_t memory_values() noexcept { return kSlots * kSlotValues; }
-  explicit UnionLines(T* memory) noexcept : memory_(memory) {}
+  ParameterLines(T* memory, std::size_t most) noexcept
+      : memory_(memory), large_{{memory + kSlots * kSlotValues, most},
+                                {large_[0].along + LineMemory<T>::values(most), most}} {}
 
   /// Whether a line is there already, so that line() leaves all others as they are.
   [[nodiscard]] bool holds(std::uint32_t a, std::uint32_t b) const noexcept {
-    const std::size_t slot = slot_of(a, b);
-    return rates_[slot][0] == a && rates_[slot][1] == b;
+    const Rates& rates = rates_[slot_of(a, b)];
+    return rates.a == a && rates.b == b;
   }
-  /// Half-centred parameters of the points between the ends of an edge with rates a <= b <= kMost,
-  /// then kMaxLanes more readable values. Valid until one is asked for that is not there.
-  const T* line(std::uint32_t a, std::uint32_t b) noexcept {
+  /// The points of an edge with rates a <= b <= kMost, which may be equal. Valid until one is asked
+  /// for that is not there.
+  ParameterLine<T> line(std::uint32_t a, std::uint32_t b) noexcept {
     const std::size_t slot = slot_of(a, b);
-    T* const values = memory_ + slot * kSlotValues;
+    const LineMemory<T> to(memory_ + slot * kSlotValues, 2 * kMost);
     if (!holds(a, b)) {
-      rates_[slot][0] = a;
-      rates_[slot][1] = b;
-      fill(values, rates_[slot]);
+      rates_[slot] = {a, b};
+      fill(rates_[slot], to);
     }
-    return values;
+    return {to.along, to.shares};
   }
-  /// The same points as shares of the edge, from 0 to 1, of a line that is there. Their mirror
-  /// images are among them, so that backwards they are those of a side in the other direction.
-  [[nodiscard]] const T* shares(std::uint32_t a, std::uint32_t b) const noexcept {
-    return memory_ + slot_of(a, b) * kSlotValues + kSharesAt;
+  /// Those of any single rate. Valid until another large one is asked for for the second time.
+  ParameterLine<T> line(std::uint32_t rate) noexcept {
+    if (rate <= kMost) {
+      return line(rate, rate);
+    }
+    turn_ = large_rate_[turn_] == rate ? turn_ : 1 - turn_;
+    const LineMemory<T>& to = large_[turn_];
+    if (large_rate_[turn_] != rate) {
+      large_rate_[turn_] = rate;
+      fill({rate, rate}, to);
+    }
+    return {to.along, to.shares};
   }
 
 private:
-  static constexpr std::size_t kSide = 16;
-  static constexpr std::size_t kSlots = kSide * kSide;
-  static constexpr std::size_t kSharesAt = 2 * kMost + kMaxLanes;
-  static constexpr std::size_t kSlotValues = kSharesAt + 2 * kMost;
+  struct Rates {
+    std::uint32_t a;
+    std::uint32_t b;
+  };
+  static constexpr std::size_t kSlots = 256;
+  static constexpr std::size_t kSlotValues = 2 * (2 * kMost + kMaxLanes);
 
+  /// Pairs of equal rates have slots of their own.
   static std::size_t slot_of(std::uint32_t a, std::uint32_t b) noexcept {
-    return (b - a) % kSide * kSide + a % kSide;
+    return (37 * a + b) % kSlots;
   }
-  static void fill(T* to, const std::uint32_t (&rates)[2]) noexcept {
+  static void fill(const Rates& rates, const LineMemory<T>& to) noexcept {
+    const std::uint32_t both[2] = {rates.a, rates.b};
     std::uint32_t next[2];
     std::size_t points = 0;
-    walk_union(rates, next, [&](std::uint32_t, const std::uint32_t* at, std::size_t lowest) {
-      if (at[lowest] > 0 && at[lowest] < rates[lowest]) {
-        to[kSharesAt + points] = static_cast<T>(at[lowest]) / static_cast<T>(rates[lowest]);
-        to[points++] = uniform_parameter<T>(at[lowest], rates[lowest]);
+    walk_union(both, next, [&](std::uint32_t, const std::uint32_t* at, std::size_t lowest) {
+      if (at[lowest] > 0 && at[lowest] < both[lowest]) {
+        to.put(points++, at[lowest], both[lowest]);
       }
     });
-    std::fill_n(to + points, kMaxLanes, to[points - 1]);
+    static_cast<void>(to.finish(points));
   }
 
   T* memory_;
-  std::uint32_t rates_[kSlots][2] = {};
+  LineMemory<T> large_[2];
+  std::uint32_t large_rate_[2] = {0, 0};
+  std::size_t turn_ = 0;
+  Rates rates_[kSlots] = {};
 };
 
 } // namespace simdbezier::detail

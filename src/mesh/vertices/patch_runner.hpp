@@ -1,5 +1,5 @@
-// Kernels on small pieces of single patches: the part of a task that is about the set is written
-// once.
+// Kernels on small pieces of patches: the part of a task that is about the set is written once.
+// Pieces go to planes, or become VertexSamples.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "src/exact/normal_fallback.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/mesh/vertices/patch_copies.hpp"
+#include "src/mesh/vertices/vertex_samples.hpp"
 
 namespace simdbezier::detail {
 
@@ -40,9 +41,22 @@ struct PieceTarget {
 template <typename T>
 class PatchRunner {
 public:
-  explicit PatchRunner(const PatchKernels<T>& kernels) noexcept : kernels_(kernels) {
+  /// Bytes of scratch. most_points: of a side.
+  [[nodiscard]] static std::size_t bytes(std::size_t most_points) noexcept {
+    return 6 * whole_lines(plane_values(most_points) * sizeof(T));
+  }
+  /// positions, normals: what samples have.
+  PatchRunner(const PatchKernels<T>& kernels, std::size_t dimension, bool normals,
+              std::size_t most_points, unsigned char* memory) noexcept
+      : kernels_(kernels), dimension_(dimension), normals_(normals),
+        most_(plane_values(most_points)) {
     std::fill_n(low_, kMaxLanes + 1, T(-0.5));
     std::fill_n(high_, kMaxLanes + 1, T(0.5));
+    for (std::size_t c = 0; c < 6; ++c, memory += whole_lines(most_ * sizeof(T))) {
+      const bool wanted = c < 3 ? c < dimension : normals;
+      T*& plane = (c < 3 ? planes_.position : planes_.normal).component[c % 3];
+      plane = wanted ? reinterpret_cast<T*>(memory) : nullptr;
+    }
   }
 
   /// How many of the patches from `patch` on, at most `most`, one call takes.
@@ -69,50 +83,58 @@ public:
       run_grid(count, piece, to);
     }
   }
+  /// Makes samples, patch by patch, of a piece that is a whole closed grid.
+  void sample(std::size_t patch, std::size_t count, const PieceParameters<T>& piece,
+              VertexSample<T>* to) noexcept {
+    const std::uint32_t bucket = bucket_of(patch);
+    make_samples(bucket, count, piece, to, [&](std::size_t first, const PieceTarget<T>& target) {
+      aim(grid_, {bucket, kernels_.set->place(patch).index + first}, target);
+    });
+  }
   /// The same of copies of patches of one bucket, from copy `first` on.
-  void run(const PatchCopies<T>& copies, std::uint32_t bucket, std::size_t first, std::size_t count,
-           const PieceParameters<T>& piece, const PieceTarget<T>& to) noexcept {
-    if (to.wanted()) {
-      aim(grid_, {bucket, 0}, to);
-      static_cast<PatchArrays<T>&>(grid_) = copies.arrays(kernels_.set->buckets[bucket], first);
+  void sample(const PatchCopies<T>& copies, std::uint32_t bucket, std::size_t first,
+              std::size_t count, const PieceParameters<T>& piece, VertexSample<T>* to) noexcept {
+    make_samples(bucket, count, piece, to, [&](std::size_t more, const PieceTarget<T>& target) {
+      aim(grid_, {bucket, 0}, target);
+      static_cast<PatchArrays<T>&>(grid_) =
+          copies.arrays(kernels_.set->buckets[bucket], first + more);
       grid_.prefetch = false;
-      run_grid(count, piece, to);
-    }
+    });
   }
   /// Makes a copy of a patch.
-  void copy(std::size_t patch, PatchCopies<T>& copies, std::size_t copy,
-            bool normals) const noexcept {
+  void copy(std::size_t patch, PatchCopies<T>& copies, std::size_t copy) const noexcept {
     const PatchPlace place = kernels_.set->place(patch);
-    copies.put(kernels_.set->buckets[place.bucket], place.index, copy, normals);
+    copies.put(kernels_.set->buckets[place.bucket], place.index, copy, normals_);
   }
 
-  /// Points between the ends of a patch's side, to consecutive places. along: their half-centred
+  /// Makes samples of the points between the ends of a patch's side. along: their half-centred
   /// parameters, kMaxLanes more readable behind them.
-  void run_side(std::size_t patch, std::size_t side, const T* along, std::uint32_t points,
-                const PieceTarget<T>& to) noexcept {
-    if (!to.wanted()) {
+  void sample_side(std::size_t patch, std::size_t side, const T* along, std::uint32_t points,
+                   VertexSample<T>* to) noexcept {
+    if (!planes_.wanted()) {
       return;
     }
     const PatchPlace place = kernels_.set->place(patch);
     if (kernels_.has_edges(kernels_.set->buckets[place.bucket].shape)) {
       const EdgeJob<T> job{along, points, 0, 1, {{place.index, side, T(1), T(1)}, {}}};
-      run_edges({&job, 1}, place.bucket, to);
+      run_edges({&job, 1}, place.bucket, as_planes(to));
       return;
     }
     const bool far = side % 2 != 0;
     const T* const end = far ? high_ : low_;
     if (runs_in_u(side)) {
       const RowRun<T> row{end, 1, far ? RowKind::edge_v1 : RowKind::edge_v0};
-      this->run(patch, 1, {along, points, &row, 1, 1}, to);
+      run(patch, 1, {along, points, &row, 1, 1}, planes_);
     } else {
       const RowRun<T> rows{along, points, RowKind::interior};
-      this->run(patch, 1, {end, 1, &rows, 1, points}, to);
+      run(patch, 1, {end, 1, &rows, 1, points}, planes_);
     }
+    collect(points, to);
   }
 
   /// The normal in a corner of a patch whose sides there, 1 << PatchEdge each, count as points.
   void find_corner_normal(std::size_t patch, std::size_t corner, unsigned sides,
-                          T (&normal)[3]) const noexcept {
+                          T* normal) const noexcept {
     const PatchPlace place = kernels_.set->place(patch);
     const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
     resolve_corner_normal<T>({&bucket.shape,
@@ -122,15 +144,17 @@ public:
   }
 
   [[nodiscard]] std::size_t lanes() const noexcept { return kernels_.table->lanes; }
-  /// Whether kernels evaluate grids that end at a patch's edges with patches as lanes.
-  [[nodiscard]] bool takes_closed_grids() const noexcept {
-    return lanes() * sizeof(T) >= 32 && kernels_.set->buckets[0].origins == nullptr;
+  [[nodiscard]] std::uint32_t bucket_of(std::size_t patch) const noexcept {
+    return kernels_.set->place(patch).bucket;
   }
-  /// The bucket of a patch with whose edges a kernel is acquainted, or kNoEdges.
-  static constexpr std::uint32_t kNoEdges = ~0U;
-  [[nodiscard]] std::uint32_t edge_bucket(std::size_t patch) const noexcept {
-    const std::uint32_t bucket = kernels_.set->place(patch).bucket;
-    return kernels_.has_edges(kernels_.set->buckets[bucket].shape) ? bucket : kNoEdges;
+  /// Whether a kernel is acquainted with edges of patches of a bucket.
+  [[nodiscard]] bool has_edges(std::uint32_t bucket) const noexcept {
+    return kernels_.has_edges(kernels_.set->buckets[bucket].shape);
+  }
+  /// Whether kernels evaluate grids that end at a patch's edges with patches as lanes.
+  [[nodiscard]] bool takes_closed_grids(std::uint32_t bucket) const noexcept {
+    return has_edges(bucket) && kernels_.table->puts_records &&
+           kernels_.set->buckets[bucket].origins == nullptr;
   }
   /// A patch's number in its bucket.
   [[nodiscard]] std::size_t index_of(std::size_t patch) const noexcept {
@@ -155,6 +179,56 @@ public:
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
+  static std::size_t plane_values(std::size_t most_points) noexcept {
+    constexpr std::size_t kLeast = 1024;
+    return std::max(most_points, kLeast);
+  }
+  /// The planes whose values samples have.
+  [[nodiscard]] PieceTarget<T> as_planes(VertexSample<T>* samples) const noexcept {
+    PieceTarget<T> to;
+    to.record = kSampleRecord;
+    for (std::size_t c = 0; c < 3; ++c) {
+      T* const values = reinterpret_cast<T*>(samples) + c;
+      to.position.component[c] = c < dimension_ ? values : nullptr;
+      to.normal.component[c] = normals_ ? values + 4 : nullptr;
+    }
+    return to;
+  }
+  /// Makes samples of what is in the planes.
+  void collect(std::size_t count, VertexSample<T>* to) const noexcept {
+    for (std::size_t k = 0; k < count; ++k) {
+      to[k] = VertexSample<T>{};
+      for (std::size_t c = 0; c < dimension_; ++c) {
+        to[k].position[c] = planes_.position.component[c][k];
+      }
+      for (std::size_t c = 0; c < 3 && normals_; ++c) {
+        to[k].normal[c] = planes_.normal.component[c][k];
+      }
+    }
+  }
+  /// aim_at(patches before, target) prepares the task.
+  template <typename AimAt>
+  void make_samples(std::uint32_t bucket, std::size_t count, const PieceParameters<T>& piece,
+                    VertexSample<T>* to, const AimAt& aim_at) noexcept {
+    if (!planes_.wanted()) {
+      return;
+    }
+    if (count >= lanes() && dimension_ == 3 && normals_ && takes_closed_grids(bucket) &&
+        kernels_.allowed.has(GridStrategy::small_across)) {
+      const PieceTarget<T> target = as_planes(to);
+      aim_at(0, target);
+      run_grid(count, piece, target);
+      return;
+    }
+    const std::size_t samples = piece.rows * piece.columns;
+    for (std::size_t first = 0; first < count;) {
+      const std::size_t part = std::min(count - first, most_ / samples);
+      aim_at(first, planes_);
+      run_grid(part, piece, planes_);
+      collect(part * samples, to + first * samples);
+      first += part;
+    }
+  }
   void run_grid(std::size_t count, const PieceParameters<T>& piece,
                 const PieceTarget<T>& to) noexcept {
     grid_.patch_count = count;
@@ -186,6 +260,10 @@ private:
   }
 
   const PatchKernels<T>& kernels_;
+  std::size_t dimension_; ///< of positions
+  bool normals_;
+  std::size_t most_; ///< values of a plane
+  PieceTarget<T> planes_;
   const PatchStorage<T>* bucket_ = nullptr;
   bool prefetch_ = false; ///< of the bucket
   GridTask<T> grid_{};

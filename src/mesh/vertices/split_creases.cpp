@@ -20,50 +20,39 @@ public:
   CreaseWork(const MeshData& mesh, const PatchKernels<T>& kernels, double angle,
              CreaseGroups& groups, std::uint32_t* sample_of_corner) noexcept
       : mesh_(mesh), kernels_(kernels), angle_(angle), groups_(groups),
-        sample_of_corner_(sample_of_corner), wishes_{0, true, true,
-                                                     std::max(kMostSamples,
-                                                              mesh.most_boundary_samples)} {
-    most_rate_ = mesh.most_rate();
-  }
+        sample_of_corner_(sample_of_corner) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return mesh_.patches(); }
   [[nodiscard]] std::size_t duration() const noexcept { return duration_of(units(), 500); }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
-    return lines_bytes() + BoundarySamples<T>::bytes(mesh_, wishes_);
+    return BoundarySamples<T>::bytes(mesh_);
   }
 
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    PatchRunner<T> runner(kernels_);
-    ParameterLines<T> lines(reinterpret_cast<T*>(scratch), most_rate_);
-    BoundarySamples<T> samples(mesh_, wishes_, runner, lines, scratch + lines_bytes());
-    const CreaseFinder<T> finder(mesh_, angle_, samples.normals(), groups_);
+    BoundarySamples<T> samples(mesh_, kernels_, 0, true, true, scratch);
+    const CreaseFinder<T> finder(mesh_, angle_, groups_);
+    const TopologyData& topology = *mesh_.topology.data();
     for (std::size_t patch = begin; patch < end; ++patch) {
-      samples.add(patch);
-      if (!samples.has_room() || patch + 1 == end) {
-        for (const BoundaryEntry& entry : samples.entries()) {
-          finder.group(entry, sample_of_corner_);
+      samples.grids().count_patch();
+      topology.for_owned_corners(patch, [&](std::uint32_t corner) {
+        finder.group(samples.joined(corner), sample_of_corner_);
+      });
+      topology.for_owned_edges(patch, [&](std::uint32_t edge) {
+        if (mesh_.segments[edge] > 1) {
+          finder.group(samples.edge(edge), sample_of_corner_);
         }
-        samples.clear();
-      }
+      });
     }
-    return runner.executed();
+    return samples.runner().executed();
   }
 
 private:
-  static constexpr std::size_t kMostSamples = 1024;
-
-  [[nodiscard]] std::size_t lines_bytes() const noexcept {
-    return whole_lines(ParameterLines<T>::memory_values(most_rate_) * sizeof(T));
-  }
-
   const MeshData& mesh_;
   const PatchKernels<T>& kernels_;
   double angle_;
   CreaseGroups& groups_;
   std::uint32_t* sample_of_corner_;
-  BoundaryWishes wishes_;
-  std::uint32_t most_rate_;
 };
 
 /// Fills groups that are not all apart.

@@ -1,6 +1,7 @@
 // The places that the vertices of a mesh go to.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,6 +25,21 @@ struct ParameterOutputs {
     }
     if (patch != nullptr) {
       patch[vertex] = of_patch;
+    }
+  }
+  /// Those of vertices one after the other, whose v is the same.
+  void put_row(std::size_t vertex, std::size_t count, std::uint32_t of_patch, const T* at_u,
+               T at_v) const noexcept {
+    if (stride == 1 && u != nullptr) {
+      std::copy_n(at_u, count, u + vertex);
+      std::fill_n(v + vertex, count, at_v);
+      if (patch != nullptr) {
+        std::fill_n(patch + vertex, count, of_patch);
+      }
+      return;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      put(vertex + k, of_patch, at_u[k], at_v);
     }
   }
 };

@@ -1,16 +1,14 @@
 // The vertices of a mesh in their order: what one thread does.
 //
 // Patch by patch there are the vertices on its boundary that it owns, and its inner points, row by
-// row. Both go to planes that a delivery provides, chunk by chunk: inner rows straight from the
-// grid kernels, or from closed grids of patches of few cells, boundaries by way of samples of all
-// patches that have them.
+// row. Both go to planes that a delivery provides, chunk by chunk. Inner rows come straight from
+// the grid kernels, or from closed grids of patches of few cells.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 
-#include "src/mesh/vertices/boundary_store.hpp"
-#include "src/mesh/vertices/plain_boundary.hpp"
+#include "src/mesh/vertices/boundary_vertices.hpp"
 #include "src/output/delivery.hpp"
 
 namespace simdbezier::detail {
@@ -28,27 +26,10 @@ struct VertexTask {
 
   /// Whether a vertex needs a sample of every patch that has it.
   [[nodiscard]] bool every_patch() const noexcept { return normals || !mesh->side_first.empty(); }
-};
-
-/// Sizes of one thread's memory.
-template <typename T>
-struct VertexSizes {
-  std::size_t chunk; ///< vertices
-  std::size_t most_rate;
-  BoundaryWishes wishes;
-
-  VertexSizes(const VertexTask<T>& task, std::size_t wanted_chunk) noexcept {
-    const MeshData& mesh = *task.mesh;
-    const std::size_t widest = mesh.most_nu;
-    most_rate = mesh.most_rate();
-    chunk = std::max({wanted_chunk, mesh.most_boundary_vertices, widest});
-    wishes = {task.dimension, task.normals, task.every_patch(),
-              std::max(kBoundarySamples, mesh.most_boundary_samples)};
+  /// The vertices of a chunk, at least those of a boundary or of a row.
+  [[nodiscard]] std::size_t chunk(std::size_t wanted) const noexcept {
+    return std::max({wanted, mesh->most_boundary_vertices, std::size_t{mesh->most_nu}});
   }
-
-private:
-  /// Few enough that they stay in the first-level cache until vertices are made of them.
-  static constexpr std::size_t kBoundarySamples = 512;
 };
 
 /// Rows of inner points that a kernel takes at once.
@@ -62,22 +43,15 @@ inline constexpr std::size_t kMostMeshRows = 1024;
 template <typename T, typename Sink>
 class VertexWorker {
 public:
-  [[nodiscard]] static std::size_t scratch_bytes(const VertexTask<T>& task,
-                                                 const VertexSizes<T>& sizes) noexcept {
-    return lines_bytes(sizes) + BoundarySamples<T>::bytes(*task.mesh, sizes.wishes) +
-           ClosedGrids<T>::bytes(*task.mesh) + BoundaryStore<T>::bytes(*task.mesh);
+  [[nodiscard]] static std::size_t scratch_bytes(const VertexTask<T>& task) noexcept {
+    return BoundarySamples<T>::bytes(*task.mesh) + BoundaryVertices<T>::bytes(*task.mesh);
   }
-
-  VertexWorker(const VertexTask<T>& task, const VertexSizes<T>& sizes, Sink& sink,
+  VertexWorker(const VertexTask<T>& task, std::size_t chunk, Sink& sink,
                unsigned char* scratch) noexcept
-      : task_(task), mesh_(*task.mesh), sizes_(sizes), sink_(sink), runner_(*task.kernels),
-        lines_(reinterpret_cast<T*>(take(scratch, lines_bytes(sizes))), sizes.most_rate),
-        samples_(mesh_, sizes.wishes, runner_, lines_,
-                 take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
-        grids_(mesh_, runner_, lines_, task.dimension > 0, task.normals,
-               take(scratch, ClosedGrids<T>::bytes(mesh_))),
-        plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), grids_, task.normals),
-        store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
+      : task_(task), mesh_(*task.mesh), chunk_(chunk), sink_(sink), waiting_(target_, task.normals),
+        samples_(mesh_, *task.kernels, task.dimension, task.normals, task.every_patch(), scratch),
+        boundary_(mesh_, samples_, waiting_, task.values, task.normals, target_,
+                  scratch + BoundarySamples<T>::bytes(mesh_)) {}
 
   /// Computes the boundaries and rows that begin at vertices [begin, end).
   Isa run(std::size_t begin, std::size_t end) noexcept {
@@ -97,19 +71,10 @@ public:
     }
     pass_on();
     sink_.finish();
-    return runner_.executed();
+    return samples_.runner().executed();
   }
 
 private:
-  static std::size_t lines_bytes(const VertexSizes<T>& sizes) noexcept {
-    return whole_lines(ParameterLines<T>::memory_values(sizes.most_rate) * sizeof(T));
-  }
-  static unsigned char* take(unsigned char*& memory, std::size_t bytes) noexcept {
-    unsigned char* const taken = memory;
-    memory += bytes;
-    return taken;
-  }
-
   /// The patch among whose own vertices a vertex is.
   [[nodiscard]] std::size_t patch_of(std::size_t vertex) const noexcept {
     std::size_t low = 0;
@@ -134,7 +99,7 @@ private:
 
   /// Passes on the chunk if `count` more vertices would not fit, and begins another one.
   void make_room(std::size_t vertex, std::size_t count) noexcept {
-    if (filled_ > 0 && filled_ + count > sizes_.chunk) {
+    if (filled_ > 0 && filled_ + count > chunk_) {
       pass_on();
     }
     if (filled_ == 0) {
@@ -143,7 +108,7 @@ private:
     }
   }
   void pass_on() noexcept {
-    store_boundaries();
+    boundary_.finish();
     if (filled_ > 0) {
       sink_.end(filled_);
     }
@@ -152,32 +117,15 @@ private:
 
   /// The corners and edges that a patch owns, which have so many vertices.
   void add_boundary(std::size_t patch, std::size_t vertices) noexcept {
-    if (!samples_.has_room()) {
-      store_boundaries();
-    }
     const TopologyData& topology = *mesh_.topology.data();
+    samples_.grids().count_patch();
     topology.for_owned_corners(patch, [&](std::uint32_t corner) {
       --vertices;
-      if (!plain_.put_corner(corner, target_)) {
-        samples_.add_corner(corner);
-      }
+      boundary_.put_corner(corner);
     });
-    if (vertices == 0) {
-      return; // edges of single segments
+    if (vertices > 0) { // else edges have single segments
+      topology.for_owned_edges(patch, [this](std::uint32_t edge) { boundary_.put_edge(edge); });
     }
-    topology.for_owned_edges(patch, [this](std::uint32_t edge) {
-      if (!plain_.add_edge(edge, target_)) {
-        plain_.run(target_); // the lines of its parameters may give way to others
-        samples_.add_edge(edge);
-      }
-    });
-  }
-  void store_boundaries() noexcept {
-    plain_.run(target_);
-    for (const BoundaryEntry& entry : samples_.entries()) {
-      store_.store(entry, samples_.positions(), samples_.normals(), target_);
-    }
-    samples_.clear();
   }
 
   void run_rows(std::size_t patch, std::size_t row, std::size_t last) noexcept {
@@ -185,50 +133,48 @@ private:
     if (row == last) {
       return;
     }
-    const T* const x = lines_.line(mesh_.nu[patch]);
-    const T* const y = lines_.line(mesh_.nv[patch]);
-    const ClosedGrid<T>* const grid = rows_from_grid(patch);
+    const bool few = std::max(mesh_.nu[patch], mesh_.nv[patch]) <= ClosedGrids<T>::kMostRate;
+    const ClosedGrid<T>* const grid = few ? &samples_.grids().of(patch) : nullptr;
+    const bool copies = grid != nullptr && grid->whole;
     while (row < last) {
       make_room(mesh_.inner[patch] + row * columns, columns);
-      const std::size_t rows =
-          std::min({last - row, (sizes_.chunk - filled_) / columns, kMostMeshRows});
+      const std::size_t rows = std::min({last - row, (chunk_ - filled_) / columns, kMostMeshRows});
       const PieceTarget<T> to{moved(target_.position), moved(target_.normal), target_.step,
                               target_.drain};
-      if (grid != nullptr) {
-        copy_rows(*grid, row, rows, to);
-      } else {
-        const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
-        runner_.run(patch, 1, {x, columns, &run, 1, rows}, to);
+      ParameterLine<T> x{};
+      ParameterLine<T> y{};
+      if (!copies || target_.parameters.wanted()) {
+        x = boundary_.line(mesh_.nu[patch]);
+        y = boundary_.line(mesh_.nv[patch]);
       }
-      finish_rows(patch, row, rows, to.normal);
+      if (copies) {
+        put_rows(*grid, row, rows, to);
+      } else {
+        const RowRun<T> run{y.along + row, static_cast<std::uint32_t>(rows), RowKind::interior};
+        samples_.runner().run(patch, 1, {x.along, columns, &run, 1, rows}, to);
+      }
+      turn_rows(patch, rows * columns, to.normal);
+      if (target_.parameters.wanted()) {
+        put_parameters(patch, row, rows, x.shares, y.shares);
+      }
       row += rows;
       filled_ += rows * columns;
     }
   }
-  /// The grid that has a patch's inner points; null where there is none.
-  const ClosedGrid<T>* rows_from_grid(std::size_t patch) noexcept {
-    if (std::max(mesh_.nu[patch], mesh_.nv[patch]) > ClosedGrids<T>::kMostRate) {
-      return nullptr;
-    }
-    const ClosedGrid<T>* const grid = grids_.of(patch);
-    return grid != nullptr && grid->whole ? grid : nullptr;
-  }
-  static void copy_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows,
-                        const PieceTarget<T>& to) noexcept {
-    static_assert(ClosedGrids<T>::kMostRate == 5);
-    with_known_count(grid.columns - std::size_t{2}, [&]<std::size_t kColumns>() {
-      const T* from = grid.first + (row + 1) * (kColumns + 2) + 1;
-      for (std::size_t c = 0; c < 6; ++c, from += ClosedGrid<T>::kPlane) {
-        T* plane = (c < 3 ? to.position : to.normal).component[c % 3];
-        for (std::size_t j = 0; j < rows && plane != nullptr; ++j) {
-          T values[kColumns];
-          std::copy_n(from + j * (kColumns + 2), kColumns, values);
-          for (std::size_t i = 0; i < kColumns; ++i, plane += to.record) {
-            *plane = values[i];
-          }
+  static void put_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows,
+                       const PieceTarget<T>& to) noexcept {
+    std::size_t at = 0;
+    for (std::size_t j = row; j < row + rows; ++j) {
+      const VertexSample<T>* const samples = grid.first + (j + 1) * grid.columns + 1;
+      for (std::size_t i = 0; i + 2 < grid.columns; ++i, at += to.record) {
+        for (std::size_t c = 0; c < 3 && to.position.component[c] != nullptr; ++c) {
+          to.position.component[c][at] = samples[i].position[c];
+        }
+        for (std::size_t c = 0; c < 3 && to.normal.wanted(); ++c) {
+          to.normal.component[c][at] = samples[i].normal[c];
         }
       }
-    });
+    }
   }
   /// Planes behind what the chunk holds already.
   [[nodiscard]] Planes<T> moved(const Planes<T>& planes) const noexcept {
@@ -239,41 +185,33 @@ private:
     }
     return result;
   }
-  /// Normals of turned patches, and parameters.
-  void finish_rows(std::size_t patch, std::size_t row, std::size_t rows,
-                   const Planes<T>& normals) const noexcept {
-    const std::size_t columns = mesh_.nu[patch] - 1;
+  /// Turns normals of points one after the other, if their patch is turned.
+  void turn_rows(std::size_t patch, std::size_t points, const Planes<T>& normals) const noexcept {
     if (task_.normals && mesh_.topology.data()->is_turned(patch)) {
       for (T* const plane : normals.component) {
-        for (std::size_t k = 0; k < rows * columns; ++k) {
+        for (std::size_t k = 0; k < points; ++k) {
           plane[k * target_.step] = T(0) - plane[k * target_.step];
         }
       }
     }
-    if (!target_.parameters.wanted()) {
-      return;
-    }
-    std::size_t vertex = mesh_.inner[patch] + row * columns - target_.parameters_first;
-    for (std::size_t j = row + 1; j <= row + rows; ++j) {
-      const T v = static_cast<T>(j) / static_cast<T>(mesh_.nv[patch]);
-      for (std::size_t i = 1; i <= columns; ++i, ++vertex) {
-        target_.parameters.put(vertex, static_cast<std::uint32_t>(patch),
-                               static_cast<T>(i) / static_cast<T>(mesh_.nu[patch]), v);
-      }
+  }
+  void put_parameters(std::size_t patch, std::size_t row, std::size_t rows, const T* u,
+                      const T* v) const noexcept {
+    const std::size_t columns = mesh_.nu[patch] - 1;
+    for (std::size_t j = row; j < row + rows; ++j) {
+      const std::size_t vertex = mesh_.inner[patch] + j * columns - target_.parameters_first;
+      target_.parameters.put_row(vertex, columns, static_cast<std::uint32_t>(patch), u, v[j]);
     }
   }
 
   const VertexTask<T>& task_;
   const MeshData& mesh_;
-  const VertexSizes<T>& sizes_;
+  std::size_t chunk_; ///< vertices
   Sink& sink_;
-  PatchRunner<T> runner_;
-  ParameterLines<T> lines_;
-  BoundarySamples<T> samples_;
-  ClosedGrids<T> grids_;
-  PlainBoundary<T> plain_;
-  BoundaryStore<T> store_;
   VertexTarget<T> target_; ///< of the chunk
+  WaitingVertices<T> waiting_;
+  BoundarySamples<T> samples_;
+  BoundaryVertices<T> boundary_;
   std::size_t filled_ = 0; ///< vertices of the chunk
 };
 

@@ -1,0 +1,153 @@
+// Vertices whose samples are known, on their way to planes, and one normal for a vertex that
+// several patches have.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+#include "src/mesh/vertices/vertex_samples.hpp"
+#include "src/mesh/vertices/vertex_target.hpp"
+#include "src/tables/mesh_table.hpp"
+
+namespace simdbezier::detail {
+
+/// Turns sums of unit normals at four points into normals: sum * inverse + kept * first + 0, never
+/// -0, where first is the first term. That is the sum's direction; a single term stays as it is,
+/// and so does the first one where the sum is less than a thousandth of what it could be.
+/// finish_sum() of the kernels for edges does the same operations. terms: of each sum.
+template <typename Values>
+void finish_sums(const Values (&first)[3], const Values (&sum)[3], const Values& terms,
+                 Values (&normal)[3]) noexcept {
+  using T = std::decay_t<decltype(terms[0])>;
+  const Values square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+  const Values least = kLeastSum<T> * terms;
+  const Values zero = square - square; // squares of sums of unit vectors are finite
+  const Values one = zero + T(1);
+  const Values none = zero + std::numeric_limits<T>::infinity();
+  const auto merges = square >= (terms > one ? least * least : none);
+  const Values kept = merges ? zero : one;
+  Values roots = square + kept;
+  for (std::size_t k = 0; k < 4; ++k) {
+    roots[k] = std::sqrt(roots[k]);
+  }
+  const Values inverse = (one - kept) / roots;
+  for (std::size_t c = 0; c < 3; ++c) {
+    normal[c] = sum[c] * inverse + kept * first[c] + T(0);
+  }
+}
+
+/// Vertices that wait until many are finished at once, since roots and quotients of single ones
+/// take longer than all the rest.
+template <typename T>
+class WaitingVertices {
+public:
+  static constexpr std::size_t kMost = 64;
+
+  /// to: alive as long as this is, and the same as long as vertices wait.
+  WaitingVertices(const VertexTarget<T>& to, bool normals) noexcept : to_(to), normals_(normals) {}
+
+  /// At most kMost vertices with consecutive numbers: positions, and the first terms of normals.
+  [[gnu::always_inline]] void put(const SampleRun<T>& run, std::size_t points,
+                                  std::size_t vertex) noexcept {
+    if (count_ + points > kMost) {
+      finish();
+    }
+    const VertexSample<T>* sample = run.first;
+    for (std::size_t k = 0; k < points; ++k, ++count_, sample += run.step) {
+      position_[count_] = sample->position;
+      place_[count_] = vertex - to_.first + k;
+      if (normals_) {
+        first_[count_] = sum_[count_] = run.sign * sample->normal;
+        terms_[count_] = 1;
+      }
+    }
+  }
+  /// Adds more patches' normals to the vertex that was put last: those that visit(add) calls
+  /// add(run) with.
+  template <typename Visit>
+  [[gnu::always_inline]] void add_all(const Visit& visit) noexcept {
+    const std::size_t last = count_ - 1;
+    typename FourOf<T>::type sum = sum_[last];
+    T terms = terms_[last];
+    visit([&](const SampleRun<T>& run) {
+      sum += run.sign * run.first->normal;
+      terms += 1;
+    });
+    sum_[last] = sum;
+    terms_[last] = terms;
+  }
+  /// Adds one more patch's normals to the vertices that were put last.
+  [[gnu::always_inline]] void add(const SampleRun<T>& run, std::size_t points) noexcept {
+    const VertexSample<T>* sample = run.first;
+    for (std::size_t k = count_ - points; k < count_; ++k, sample += run.step) {
+      sum_[k] += run.sign * sample->normal;
+      terms_[k] += 1;
+    }
+  }
+  /// Gives the vertex that was put last the position of another sample.
+  void move_to(const VertexSample<T>& sample) noexcept { position_[count_ - 1] = sample.position; }
+
+  /// Writes all that wait.
+  void finish() noexcept {
+    for (std::size_t k = 0; k < count_; k += 4) {
+      Four column[4];
+      turn(position_ + k, column);
+      store(column, to_.position, k);
+      if (normals_) {
+        Four first[4];
+        Four sum[4];
+        turn(first_ + k, first);
+        turn(sum_ + k, sum);
+        Four terms;
+        std::memcpy(&terms, terms_ + k, sizeof terms);
+        Four normal[3];
+        finish_sums({first[0], first[1], first[2]}, {sum[0], sum[1], sum[2]}, terms, normal);
+        store(normal, to_.normal, k);
+      }
+    }
+    count_ = 0;
+  }
+
+private:
+  using Four = typename FourOf<T>::type;
+
+  /// Turns four vectors into their components.
+  static void turn(const Four* row, Four (&column)[4]) noexcept {
+    const Four xy01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+    const Four xy23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+    const Four zw01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+    const Four zw23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+    column[0] = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5);
+    column[1] = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7);
+    column[2] = __builtin_shufflevector(zw01, zw23, 0, 1, 4, 5);
+    column[3] = __builtin_shufflevector(zw01, zw23, 2, 3, 6, 7);
+  }
+  /// Writes components of vertices k to k + 3, as far as there are so many.
+  void store(const Four* column, const Planes<T>& planes, std::size_t k) const noexcept {
+    const std::size_t* const place = place_ + k;
+    const bool whole = to_.step == 1 && k + 4 <= count_ && place[1] == place[0] + 1 &&
+                       place[2] == place[0] + 2 && place[3] == place[0] + 3;
+    for (std::size_t c = 0; c < 3 && planes.component[c] != nullptr; ++c) {
+      if (whole) {
+        std::memcpy(planes.component[c] + place[0], &column[c], sizeof(Four));
+        continue;
+      }
+      for (std::size_t i = 0; i < 4 && k + i < count_; ++i) {
+        planes.component[c][place[i] * to_.step] = column[c][i];
+      }
+    }
+  }
+
+  const VertexTarget<T>& to_;
+  bool normals_;
+  std::size_t count_ = 0;
+  Four position_[kMost] = {};
+  Four first_[kMost] = {};
+  Four sum_[kMost] = {};
+  T terms_[kMost] = {};
+  std::size_t place_[kMost] = {};
+};
+
+} // namespace simdbezier::detail
