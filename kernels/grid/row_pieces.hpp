@@ -213,10 +213,10 @@ template <RowOrder kRowOrder, typename T, typename Edge, typename Pair, typename
 SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu,
                                 const Edge& edge, const Pair& pair, const Interior& interior) {
   constexpr std::size_t kRows = kRowOrder.rows;
-  RowPlace place{at, 0};
-  if (piece.lead) {
-    edge(piece.lead_kind, place);
-    place = place.behind(1, nu);
+  const RowPlace lead{at, 0};
+  RowPlace place = piece.lead ? lead.behind(1, nu) : lead;
+  if (!kSimd128 && piece.lead) {
+    edge(piece.lead_kind, lead);
   }
   const T* y = piece.middle.y;
   std::size_t left = piece.middle.rows;
@@ -251,6 +251,9 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
   }
   if (kRows > 1 && left > 0) {
     interior(y, place, left);
+  }
+  if (kSimd128 && piece.lead) { // V8 would put off what other rows alone take, and keep more for it
+    edge(piece.lead_kind, lead);
   }
   if (piece.trail) {
     edge(piece.trail_kind, trail);
