@@ -175,7 +175,7 @@ simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set
 }
 
 simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
-                                           const simdbezier_mesh_layout* layout, double angle,
+                                           const simdbezier_mesh_layout* layout, double degrees,
                                            const simdbezier_options* options,
                                            simdbezier_mesh_layout** split) {
   return answer(__func__, [&] {
@@ -184,8 +184,8 @@ simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
     with_object(set, kSet, [&](const auto& patches) {
       const Options how = call_options_of(options);
       MeshLayout made;
-      require_ok(split_creases(patches, numbers, angle, made, how), [](Status status) {
-        return status == Status::bad_tolerance ? Path{"angle"} : blamed_in_mesh(status);
+      require_ok(split_creases(patches, numbers, degrees, made, how), [](Status status) {
+        return status == Status::bad_tolerance ? Path{"degrees"} : blamed_in_mesh(status);
       });
       give(split, std::move(made));
     });

@@ -103,7 +103,7 @@ const Refusal<MeshWorld> kVertices[] = {
      [](MeshWorld& w) {
        return simdbezier_evaluate_mesh_attributes(w.set.get(), w.layout, nullptr, 0, nullptr, 0, 0);
      }},
-    {SIMDBEZIER_BAD_TOLERANCE, "angle",
+    {SIMDBEZIER_BAD_TOLERANCE, "degrees",
      [](MeshWorld& w) {
        return simdbezier_split_creases(w.set.get(), w.layout, -1, nullptr, &w.made_layout);
      }},

@@ -112,7 +112,7 @@ enum { SIMDBEZIER_MOST_POLYLINE_POINTS = 65537 }; // kMostPolylinePoints
 typedef struct simdbezier_flatten_options {
   size_t struct_size;
   double tolerance;         // 0: none
-  const double* tolerances; // one value a curve, in addition to `tolerance`; or null
+  const double* tolerances; // one value a curve, or null; with `tolerance`, the smaller counts
   size_t tolerances_length;
   const double* errors; // simdbezier_curve_position_errors(), or null
   size_t errors_length;

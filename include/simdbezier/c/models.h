@@ -81,7 +81,7 @@ enum { SIMDBEZIER_MOST_SEGMENTS = 4096, SIMDBEZIER_MOST_GRID_CELLS = 1 << 20 };
 typedef struct simdbezier_rate_options {
   size_t struct_size;
   double tolerance;         // 0: none, as below
-  const double* tolerances; // one value a patch, in addition to `tolerance`; or null
+  const double* tolerances; // one value a patch, or null; with `tolerance`, the smaller counts
   size_t tolerances_length;
   const double* errors; // simdbezier_position_errors(), or null
   size_t errors_length;
