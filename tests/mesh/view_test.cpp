@@ -152,33 +152,6 @@ TEST(View, has_pixels_of_one_size_where_it_is_parallel) {
   }
 }
 
-/// Whether tolerances are the same for points side by side and for points with gaps in between.
-template <typename S>
-void expect_same_tolerances() {
-  const Torus torus;
-  const std::vector<S> packed(torus.values.begin(), torus.values.end());
-  std::vector<S> apart;
-  for (std::size_t k = 0; k < packed.size(); k += 3) {
-    apart.insert(apart.end(), {packed[k], packed[k + 1], packed[k + 2], S(1e9)});
-  }
-  auto nets = ControlNets<S>::packed(apart.data(), Torus::patches(), 3, 3, 4);
-  nets.components = 3;
-  Random random(6);
-  for (int round = 0; round < 50; ++round) {
-    const Camera camera = random_camera(random);
-    std::vector<double> found(Torus::patches());
-    std::vector<double> expected(Torus::patches());
-    ASSERT_TRUE(pixel_tolerances(nets, camera, 1, std::span(found)));
-    ASSERT_TRUE(pixel_tolerances(ControlNets<S>::packed(std::span(packed)), camera, 1,
-                                 std::span(expected)));
-    EXPECT_EQ(found, expected) << "round " << round;
-  }
-}
-TEST(View, has_the_same_tolerances_however_points_lie) {
-  expect_same_tolerances<float>();
-  expect_same_tolerances<double>();
-}
-
 /// The test of what faces away is one of polynomial patches.
 TEST(View, keeps_rational_patches_that_face_away) {
   const Torus torus;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <simdbezier/rates.hpp>
 
@@ -22,17 +21,6 @@ PointBox box_of(const ControlNets<S>& nets, std::size_t patch) {
   for_points(nets, patch, [&](const Point3& point) { box.include(point); });
   return box;
 }
-
-/// The least and the largest of some numbers.
-struct Depths {
-  double nearest = HUGE_VAL;
-  double farthest = -HUGE_VAL;
-
-  void include(double depth) {
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
-  }
-};
 
 /// Values between two.
 struct Interval {
@@ -79,9 +67,15 @@ public:
   template <typename S>
   [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch,
                                  double pixels) const {
+    double nearest = HUGE_VAL; // the depths of points, times the length of the camera's direction
+    double farthest = -HUGE_VAL;
     ask_for_net(nets, std::min(patch + 8, nets.count - 1));
-    const Depths depths = depths_of(nets, patch);
-    const bool behind = depths.farthest / length_ < camera_.nearest;
+    for_points(nets, patch, [&](const Point3& point) {
+      const double depth = along_axis(point);
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    });
+    const bool behind = farthest / length_ < camera_.nearest;
     if (behind || camera_.skip_outside || camera_.skip_back) { // else nothing asks for a box
       const PointBox box = box_of(nets, patch);
       if (behind || (camera_.skip_outside && is_outside(box)) ||
@@ -89,62 +83,17 @@ public:
         return std::max(box.diagonal(), camera_.nearest);
       }
     }
-    const double depth = std::max(depths.nearest / length_, camera_.nearest);
+    const double depth = std::max(nearest / length_, camera_.nearest);
     return pixels * (camera_.orthographic ? 1 : depth) / pixels_per_unit_;
   }
 
 private:
-  /// The depths of a patch's control points, times the length of the camera's direction.
-  template <typename S>
-  [[nodiscard]] Depths depths_of(const ControlNets<S>& nets, std::size_t patch) const {
-    const std::ptrdiff_t columns = nets.degree_u + 1;
-    const std::ptrdiff_t points = columns * (nets.degree_v + 1);
-    if (points % 2 == 0 && nets.weights == Weights::none && nets.component_stride == 1 &&
-        nets.point_stride == 3 && nets.row_stride == 3 * columns) {
-      return depths_of_pairs(values_at(nets, patch, 0, 0), points);
+  [[nodiscard]] double along_axis(const Point3& point) const {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum += (point.x[c] - camera_.eye[c]) * axis_.x[c];
     }
-    Depths depths;
-    for_points(nets, patch, [&](const Point3& point) {
-      depths.include(((point.x[0] - camera_.eye[0]) * axis_.x[0] +
-                      (point.x[1] - camera_.eye[1]) * axis_.x[1]) +
-                     (point.x[2] - camera_.eye[2]) * axis_.x[2]);
-    });
-    return depths;
-  }
-  /// The same of points whose values follow each other, two at a time.
-  template <typename S>
-  [[nodiscard]] Depths depths_of_pairs(const S* values, std::ptrdiff_t points) const {
-    typedef S Given __attribute__((vector_size(4 * sizeof(S))));
-    typedef double Four __attribute__((vector_size(4 * sizeof(double))));
-    typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
-    const auto& eye = camera_.eye;
-    const Pair eyes[3] = {{eye[0], eye[1]}, {eye[2], eye[0]}, {eye[1], eye[2]}};
-    const auto& axis = axis_.x;
-    const Pair axes[3] = {{axis[0], axis[1]}, {axis[2], axis[0]}, {axis[1], axis[2]}};
-    Pair nearest = {HUGE_VAL, HUGE_VAL};
-    Pair farthest = -nearest;
-    for (const S* const end = values + 3 * points; values < end; values += 6) {
-      Given low;
-      Given high;
-      std::memcpy(&low, values, sizeof low);
-      std::memcpy(&high, values + 2, sizeof high);
-      const auto x = __builtin_convertvector(low, Four);
-      const auto y = __builtin_convertvector(high, Four);
-      Pair along[3] = {__builtin_shufflevector(x, x, 0, 1), __builtin_shufflevector(y, y, 0, 1),
-                       __builtin_shufflevector(y, y, 2, 3)};
-      for (std::size_t k = 0; k < 3; ++k) {
-        along[k] = (along[k] - eyes[k]) * axes[k];
-      }
-      const Pair depth = (__builtin_shufflevector(along[0], along[1], 0, 3) +
-                          __builtin_shufflevector(along[0], along[2], 1, 2)) +
-                         __builtin_shufflevector(along[1], along[2], 0, 3);
-      nearest = depth < nearest ? depth : nearest;
-      farthest = depth > farthest ? depth : farthest;
-    }
-    Depths depths{nearest[0], farthest[0]};
-    depths.include(nearest[1]);
-    depths.include(farthest[1]);
-    return depths;
+    return sum;
   }
 
   /// Whether the sphere around a patch's box is outside of the cone (or cylinder) whose section is
