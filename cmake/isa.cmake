@@ -10,7 +10,7 @@
 #     arithmetic: 18 % of the derivatives' speed on AVX-512.
 set(simdbezier_isa_rows
     "scalar|any|void|0|1|"
-    "sse2|x86_64|xsimd::sse2|0|2|-msse2"
+    "sse2|x86_64|xsimd::sse2|0|2|-msse2 -mtune=haswell"
     "simd128|wasm32|xsimd::sse2|0|2|-msimd128 -D__SSE__ -D__SSE2__"
     "avx2|x86_64|xsimd::fma3<xsimd::avx2>|1|0|-mavx2 -mfma -mtune=haswell"
     "avx512|x86_64|xsimd::avx512bw|1|0|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma -mtune=haswell"

@@ -13,28 +13,24 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// A piece has at most so many rows that are on no edge.
 constexpr std::size_t kMostMiddleRows = 128;
 
-/// Parameters of rows and what RowPoint takes besides, in memory: at constant distances, so that
-/// one address serves all of them.
+#if defined(SIMDBEZIER_KERNELS_SSE2) && !defined(SIMDBEZIER_KERNELS_SIMD128)
+/// Parameters of rows and their squares in memory, in all lanes of a register each: SSE2 has no
+/// instruction that brings a value to all lanes. What is their double is computed: memory that rows
+/// do not need stays in the first-level cache instead.
 template <typename T>
 class RowPowers {
   using Register = vec<T>;
 
 public:
-  /// Values from one row to the next. SSE2 has no instruction that brings a value from memory to
-  /// all lanes, so that each one is there for every lane.
-  static constexpr std::size_t kStep = kSse2 ? kLanes<Register> : 1;
+  static constexpr std::size_t kStep = 2 * kLanes<Register>; ///< values from one row to the next
 
   /// y is readable as far as RowRun::y.
   SIMDBEZIER_PART const T* fill(const T* y, std::size_t rows) {
-    constexpr std::size_t kAtOnce = kLanes<Register> / kStep;
     // Registers of several rows read beyond the last one.
-    for (std::size_t k = 0; k < rows + kStep - 1; k += kAtOnce) {
-      const RowPoint<Register> at(RowGroups<kAtOnce, Register>::spread(y + k));
-      T* const to = values_ + k * kStep;
-      store_vector(to, at.y);
-      store_vector(to + kPlane, at.square);
-      store_vector(to + 2 * kPlane, at.twice);
-      store_vector(to + 3 * kPlane, at.twice_square);
+    for (std::size_t k = 0; k < rows + kLanes<Register>; ++k) {
+      const auto at = broadcast<Register>(y[k]);
+      store_vector(values_ + k * kStep, at);
+      store_vector(values_ + k * kStep + kLanes<Register>, at * at);
     }
     return values_;
   }
@@ -42,17 +38,63 @@ public:
   /// Returns the parameters of a register of kRows rows, the first of which has its own at y.
   template <std::size_t kRows, typename V>
   static SIMDBEZIER_PART V parameters(const T* y) {
-    if constexpr (kRows == 1) {
-      return of_row<V>(y);
-    } else if constexpr (kStep == 1) {
-      return RowGroups<kRows, V>::spread(y);
+    constexpr std::size_t kColumns = kLanes<V> / kRows;
+    return from_lanes<V>([y](std::size_t i)
+                             SIMDBEZIER_INLINE_LAMBDA { return y[i / kColumns * kStep]; });
+  }
+  /// Returns the points of such a register.
+  template <std::size_t kRows, typename V>
+  static SIMDBEZIER_PART RowPoint<V> point(const T* y) {
+    if constexpr (kRows > 1) {
+      return RowPoint<V>(parameters<kRows, V>(y));
     } else {
-      constexpr std::size_t kColumns = kLanes<V> / kRows;
-      return from_lanes<V>([y](std::size_t i)
-                               SIMDBEZIER_INLINE_LAMBDA { return y[i / kColumns * kStep]; });
+      const V of_row = in_all_lanes<V>(y);
+      const V square = in_all_lanes<V>(y + kLanes<Register>);
+      return {of_row, square, of_row + of_row, square + square};
     }
   }
 
+private:
+  template <typename V>
+  static SIMDBEZIER_INLINE V in_all_lanes(const T* values) {
+    // Only what is aligned may be an operand of an instruction.
+    const void* const aligned = __builtin_assume_aligned(values, sizeof(Register));
+    const auto all = load_vector<Register>(static_cast<const T*>(aligned));
+    if constexpr (kLanes<V> == kLanes<Register>) {
+      return all;
+    } else {
+      return {all, all};
+    }
+  }
+
+  alignas(64) T values_[(kMostMiddleRows + detail::kMaxLanes) * kStep];
+};
+#else
+/// Parameters of rows and what RowPoint takes besides, in memory: at constant distances, so that
+/// one address serves all of them.
+template <typename T>
+class RowPowers {
+public:
+  static constexpr std::size_t kStep = 1; ///< values from one row to the next
+
+  /// y is readable as far as RowRun::y.
+  SIMDBEZIER_PART const T* fill(const T* y, std::size_t rows) {
+    using V = vec<T>;
+    for (std::size_t k = 0; k < rows; k += kLanes<V>) {
+      const RowPoint<V> at(load_vector<V>(y + k));
+      store_vector(values_ + k, at.y);
+      store_vector(values_ + kPlane + k, at.square);
+      store_vector(values_ + 2 * kPlane + k, at.twice);
+      store_vector(values_ + 3 * kPlane + k, at.twice_square);
+    }
+    return values_;
+  }
+
+  /// Returns the parameters of a register of kRows rows, the first of which has its own at y.
+  template <std::size_t kRows, typename V>
+  static SIMDBEZIER_PART V parameters(const T* y) {
+    return RowGroups<kRows, V>::spread(y);
+  }
   /// Returns the points of such a register. With several rows, powers are computed anew, since
   /// stored ones would have to be spread over the lanes.
   template <std::size_t kRows, typename V>
@@ -60,32 +102,16 @@ public:
     if constexpr (kRows > 1) {
       return RowPoint<V>(parameters<kRows, V>(y));
     } else {
-      return {of_row<V>(y), of_row<V>(y + kPlane), of_row<V>(y + 2 * kPlane),
-              of_row<V>(y + 3 * kPlane)};
+      return {broadcast<V>(y[0]), broadcast<V>(y[kPlane]), broadcast<V>(y[2 * kPlane]),
+              broadcast<V>(y[3 * kPlane])};
     }
   }
 
 private:
-  static constexpr std::size_t kPlane = (kMostMiddleRows + detail::kMaxLanes) * kStep;
-
-  /// Returns a row's value in all lanes.
-  template <typename V>
-  static SIMDBEZIER_INLINE V of_row(const T* value) {
-    if constexpr (kStep == 1) {
-      return broadcast<V>(*value);
-    } else { // only what is aligned may be an operand of SSE2's instructions
-      const void* const aligned = __builtin_assume_aligned(value, sizeof(Register));
-      const auto all = load_vector<Register>(static_cast<const T*>(aligned));
-      if constexpr (kLanes<V> == kStep) {
-        return all;
-      } else {
-        return {all, all};
-      }
-    }
-  }
-
+  static constexpr std::size_t kPlane = kMostMiddleRows + detail::kMaxLanes;
   alignas(64) T values_[4 * kPlane];
 };
+#endif
 
 /// Rows that a tile sweeps in one go: one on an edge, some that are not, one on an edge. A usual
 /// grid is one such piece.
