@@ -13,6 +13,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 enum class Known {
   watertight, ///< and that there are no origins
   open,       ///< likewise
+  closed,     ///< likewise, that edges are watertight, and that RowPiece::is_closed() holds
   no_origins,
   nothing
 };
@@ -35,7 +36,8 @@ SIMDBEZIER_PART void assume(const GridTask<T>& task) {
 }
 template <Known kKnown, typename T>
 SIMDBEZIER_PART bool is_watertight(const GridTask<T>& task) {
-  return kKnown == Known::watertight || (kKnown != Known::open && task.watertight);
+  return kKnown == Known::watertight || kKnown == Known::closed ||
+         (kKnown != Known::open && task.watertight);
 }
 
 /// Makes a task of the single column behind a tile, whose positions and normals go to a buffer.
@@ -183,6 +185,11 @@ SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& __restrict shared_task,
   Piece piece = shared_piece;
   if constexpr (kKnown == Known::open) {
     piece.lead = piece.trail = false; // a constant for the compiler
+  }
+  if constexpr (kKnown == Known::closed) { // likewise
+    piece.lead = piece.mirrored = piece.trail = true;
+    piece.lead_kind = RowKind::edge_v0;
+    piece.trail_kind = RowKind::edge_v1;
   }
   if constexpr (kKnown == Known::open || kKnown == Known::nothing) {
     piece.by_lines = true; // likewise: no pairs of rows that share lines, to save code

@@ -132,6 +132,11 @@ struct RowPiece {
   [[nodiscard]] SIMDBEZIER_PART std::size_t rows() const {
     return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
   }
+  /// Whether rows are those of a whole uniform grid, from edge to edge.
+  [[nodiscard]] SIMDBEZIER_PART bool is_closed() const {
+    return lead && lead_kind == RowKind::edge_v0 && mirrored && trail &&
+           trail_kind == RowKind::edge_v1;
+  }
   /// Returns the parameters of a register of kRows rows, the first of which has its own at y.
   template <std::size_t kRows, typename V>
   static SIMDBEZIER_INLINE RowPoint<V> point(const T* y) {

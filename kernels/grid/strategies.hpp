@@ -258,6 +258,11 @@ struct AcrossLines {
   }
 };
 
+/// Whether tiles know that rows go from edge to edge. All other rows are swept as those of tasks of
+/// which nothing is known.
+template <detail::OutputSet kOutputs>
+constexpr bool kKnowsRows = (kSimd128) && kOutputs == detail::kPositionDerivatives;
+
 /// One or two registers of columns after the other.
 template <detail::OutputSet kOutputs, typename T>
 struct TileByTile {
@@ -268,7 +273,11 @@ struct TileByTile {
   }
   static SIMDBEZIER_PART void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
                                     std::size_t patch, std::size_t end) {
-    if constexpr (kUsual<kOutputs>) {
+    if constexpr (kKnowsRows<kOutputs>) {
+      if (stays_in_planes(task) && task.watertight && piece.is_closed()) {
+        return sweep_tiles<kOutputs, Known::closed>(task, piece, patch, end);
+      }
+    } else if constexpr (kUsual<kOutputs>) {
       if (stays_in_planes(task)) {
         return with_known_edges(task, [&]<Known kKnown>() SIMDBEZIER_INLINE_LAMBDA {
           sweep_tiles<kOutputs, kKnown>(task, piece, patch, end);
