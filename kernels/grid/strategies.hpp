@@ -258,8 +258,7 @@ struct AcrossLines {
   }
 };
 
-/// Whether tiles know that rows go from edge to edge. All other rows are swept as those of tasks of
-/// which nothing is known.
+/// Whether there are tiles of their own for rows from edge to edge.
 template <detail::OutputSet kOutputs>
 constexpr bool kKnowsRows = (kSimd128) && kOutputs == detail::kPositionDerivatives;
 
@@ -277,7 +276,8 @@ struct TileByTile {
       if (stays_in_planes(task) && task.watertight && piece.is_closed()) {
         return sweep_tiles<kOutputs, Known::closed>(task, piece, patch, end);
       }
-    } else if constexpr (kUsual<kOutputs>) {
+    }
+    if constexpr (kUsual<kOutputs>) {
       if (stays_in_planes(task)) {
         return with_known_edges(task, [&]<Known kKnown>() SIMDBEZIER_INLINE_LAMBDA {
           sweep_tiles<kOutputs, kKnown>(task, piece, patch, end);
