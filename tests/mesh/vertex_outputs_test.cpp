@@ -1,6 +1,9 @@
 // Vertices have the same bits whatever the call: threads, instruction sets, layouts, destinations,
 // parts of a mesh. And calls refuse what they cannot do.
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -174,6 +177,67 @@ TYPED_TEST(VertexCalls, have_the_same_bits_in_any_layout) {
     out.patch = patch;
     ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
     EXPECT_EQ(patch, mesh.patch);
+  }
+}
+
+/// Patches of equal rates go together, and those with few cells in ways of their own. Alone, each
+/// one's grid has the same samples.
+TYPED_TEST(VertexCalls, are_samples_of_grids_where_patches_share_nothing) {
+  using T = TypeParam;
+  constexpr std::size_t kPatches = 70;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  std::vector<double> points(kPatches * 48);
+  std::generate(points.begin(), points.end(), [&] { return coordinate(random); });
+  const auto nets = ControlNets<double>::packed(std::span<const double>(points), 3, 3, 3);
+  PatchSet<T> set;
+  ASSERT_TRUE(pack(nets, set));
+  Topology topology;
+  ASSERT_EQ(find_topology(nets, topology), Status::ok);
+  for (const Isa isa : available_isas()) {
+    Options options;
+    options.isa = isa;
+    for (const std::uint32_t nu : {1U, 2U, 3U, 4U, 5U, 6U, 20U}) {
+      for (const std::uint32_t nv : {1U, 2U, 3U, 4U, 5U, 9U}) {
+        SCOPED_TRACE(std::string(to_string(isa)) + ", " + std::to_string(nu) + " x " +
+                     std::to_string(nv));
+        const std::vector<std::uint32_t> us(kPatches, nu);
+        const std::vector<std::uint32_t> vs(kPatches, nv);
+        MeshLayout layout;
+        ASSERT_EQ(lay_out_mesh(topology, {us, vs, {}}, layout), Status::ok);
+        const std::size_t n = layout.size().vertices;
+        ASSERT_EQ(n, kPatches * (nu + 1) * (nv + 1));
+        std::vector<T> records(8 * n);
+        std::vector<std::uint32_t> patch(n);
+        MeshOutputs<T> out;
+        out.position = Vectors<T>::xyz(records.data(), 8);
+        out.normal = Vectors<T>::xyz(records.data() + 3, 8);
+        out.parameters = Vectors<T>::pairs(records.data() + 6, 8);
+        out.patch = patch;
+        ASSERT_EQ(evaluate_mesh(set, layout, out, options), Status::ok);
+        std::vector<T> samples(6 * n);
+        for (std::size_t k = 0; k < kPatches; ++k) {
+          T* const first = &samples[k * 6 * (nu + 1) * (nv + 1)];
+          Outputs<T> own;
+          own.position = Vectors<T>::xyz(first, 6);
+          own.normal = Vectors<T>::xyz(first + 3, 6);
+          auto grid = Grid<T>::uniform(nu + 1, nv + 1);
+          grid.patches = {k, 1};
+          ASSERT_EQ(evaluate(set, grid, own, options), Status::ok);
+        }
+        for (std::size_t vertex = 0; vertex < n; ++vertex) {
+          const T* const record = &records[8 * vertex];
+          const auto i = static_cast<std::size_t>(std::lround(record[6] * static_cast<T>(nu)));
+          const auto j = static_cast<std::size_t>(std::lround(record[7] * static_cast<T>(nv)));
+          ASSERT_EQ(record[6], static_cast<T>(i) / static_cast<T>(nu));
+          ASSERT_EQ(record[7], static_cast<T>(j) / static_cast<T>(nv));
+          const T* const sample = &samples[6 * ((patch[vertex] * (nv + 1) + j) * (nu + 1) + i)];
+          for (std::size_t c = 0; c < 6; ++c) {
+            ASSERT_EQ(record[c], sample[c]) << i << ", " << j << ", " << c;
+          }
+        }
+      }
+    }
   }
 }
 
