@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <new>
-#include <utility>
 #include <vector>
 
 namespace simdbezier::detail {
@@ -21,10 +20,6 @@ struct FreshAllocator : std::allocator<T> {
   template <typename U>
   void construct(U* at) noexcept {
     ::new (static_cast<void*>(at)) U;
-  }
-  template <typename U, typename... Arguments>
-  void construct(U* at, Arguments&&... arguments) {
-    std::construct_at(at, std::forward<Arguments>(arguments)...);
   }
 };
 

@@ -64,50 +64,31 @@ typedef struct simdbezier_control_curves {
 
 // Nets with all values side by side, u fastest, as many as there are points for. An incomplete one
 // counts, so that calls refuse it.
-static inline simdbezier_nets simdbezier_packed_nets_of(const void* points, size_t length,
-                                                        int32_t degree_u, int32_t degree_v,
-                                                        int32_t components,
-                                                        simdbezier_weights weights,
-                                                        simdbezier_scalar scalar) {
-  const ptrdiff_t point = (ptrdiff_t)components + (weights == SIMDBEZIER_POLYNOMIAL ? 0 : 1);
-  const ptrdiff_t row = ((ptrdiff_t)degree_u + 1) * point;
-  const ptrdiff_t net = ((ptrdiff_t)degree_v + 1) * row;
-  const size_t values = net < 1 ? 1 : (size_t)net;
-  simdbezier_nets nets = {sizeof nets, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
-  nets.points = points;
-  nets.length = length;
-  nets.count = length / values + (length % values == 0 ? 0 : 1);
-  nets.net_stride = net;
-  nets.row_stride = row;
-  nets.point_stride = point;
-  nets.degree_u = degree_u;
-  nets.degree_v = degree_v;
-  nets.components = components;
-  nets.weights = weights;
-  nets.scalar = scalar;
-  return nets;
-}
+#define SIMDBEZIER_PACKED_OF(kind, Void)                                                           \
+  static inline simdbezier_##kind simdbezier_packed_##kind##_of(                                   \
+      Void* points, size_t length, int32_t degree_u, int32_t degree_v, int32_t components,         \
+      simdbezier_weights weights, simdbezier_scalar scalar) {                                      \
+    const ptrdiff_t point = (ptrdiff_t)components + (weights == SIMDBEZIER_POLYNOMIAL ? 0 : 1);    \
+    const ptrdiff_t row = ((ptrdiff_t)degree_u + 1) * point;                                       \
+    const ptrdiff_t net = ((ptrdiff_t)degree_v + 1) * row;                                         \
+    const size_t values = net < 1 ? 1 : (size_t)net;                                               \
+    simdbezier_##kind nets = {sizeof nets, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};                 \
+    nets.points = points;                                                                          \
+    nets.length = length;                                                                          \
+    nets.count = length / values + (length % values == 0 ? 0 : 1);                                 \
+    nets.net_stride = net;                                                                         \
+    nets.row_stride = row;                                                                         \
+    nets.point_stride = point;                                                                     \
+    nets.degree_u = degree_u;                                                                      \
+    nets.degree_v = degree_v;                                                                      \
+    nets.components = components;                                                                  \
+    nets.weights = weights;                                                                        \
+    nets.scalar = scalar;                                                                          \
+    return nets;                                                                                   \
+  }
+SIMDBEZIER_PACKED_OF(nets, const void)
+SIMDBEZIER_PACKED_OF(mutable_nets, void)
 
-static inline simdbezier_mutable_nets
-simdbezier_packed_mutable_nets_of(void* points, size_t length, int32_t degree_u, int32_t degree_v,
-                                  int32_t components, simdbezier_weights weights,
-                                  simdbezier_scalar scalar) {
-  const simdbezier_nets like =
-      simdbezier_packed_nets_of(points, length, degree_u, degree_v, components, weights, scalar);
-  simdbezier_mutable_nets nets = {sizeof nets, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
-  nets.points = points;
-  nets.length = length;
-  nets.count = like.count;
-  nets.net_stride = like.net_stride;
-  nets.row_stride = like.row_stride;
-  nets.point_stride = like.point_stride;
-  nets.degree_u = degree_u;
-  nets.degree_v = degree_v;
-  nets.components = components;
-  nets.weights = weights;
-  nets.scalar = scalar;
-  return nets;
-}
 static inline simdbezier_control_curves
 simdbezier_packed_curves_of(const void* points, size_t length, int32_t degree, int32_t components,
                             simdbezier_weights weights, simdbezier_scalar scalar) {
