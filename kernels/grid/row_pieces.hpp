@@ -256,19 +256,19 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
     place = place.behind(rows, nu);
     y += rows * RowPowers<T>::kStep;
   };
-  constexpr bool kPairs = kRowOrder.pairs != RowPairs::never;
-  constexpr std::size_t kTogether = kRowOrder.together;
-  if (kPairs && piece.mirrored && (kRowOrder.pairs == RowPairs::always || !piece.by_lines)) {
-    RowPlace mirrored{trail.at - nu, trail.row - 1};
-    for (; left >= 2 * kRows; left -= 2 * kRows) {
-      if constexpr (kPairs) {
+  if constexpr (kRowOrder.pairs != RowPairs::never) {
+    if (piece.mirrored && (kRowOrder.pairs == RowPairs::always || !piece.by_lines)) {
+      RowPlace mirrored{trail.at - nu, trail.row - 1};
+      for (; left >= 2 * kRows; left -= 2 * kRows) {
         pair(y, place, mirrored);
+        step(kRows);
+        mirrored.at -= kRows * nu;
+        mirrored.row -= kRows;
       }
-      step(kRows);
-      mirrored.at -= kRows * nu;
-      mirrored.row -= kRows;
     }
-  } else if constexpr (kTogether > 1) {
+  }
+  constexpr std::size_t kTogether = kRowOrder.together;
+  if constexpr (kTogether > 1) {
     for (; left >= kTogether * kRows; left -= kTogether * kRows) {
       repeat<kTogether>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
         interior(y + k * kRows * RowPowers<T>::kStep, place.behind(k * kRows, nu), kRows);
