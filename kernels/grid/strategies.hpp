@@ -260,7 +260,7 @@ struct AcrossLines {
 
 /// Whether there are tiles of their own for rows from edge to edge.
 template <detail::OutputSet kOutputs>
-constexpr bool kKnowsRows = (kSimd128) && kOutputs == detail::kPositionDerivatives;
+constexpr bool kKnowsRows = kUsual<kOutputs>&& kSimd128;
 
 /// One or two registers of columns after the other.
 template <detail::OutputSet kOutputs, typename T>
