@@ -131,7 +131,8 @@ private:
     return near;
   }
 
-  /// Whole registers are evaluated: the samples behind the last one are its patch's middle.
+  /// Whole registers are evaluated: the samples behind the last one are on its patch, but not in
+  /// the middle, which is an edge of cells from degree 6 on, and takes a sample's time again.
   void evaluate(const KernelTable<T>& table) const noexcept {
     const PatchStorage<T>& bucket = storage_->buckets[0];
     std::uint32_t patch[kMost];
@@ -141,11 +142,12 @@ private:
     ScatteredTask<T> task; // written below: zeros would take as long as a sample
     set_half_centring(samples_.parameters, task);
     task.count = (count() + table.lanes - 1) / table.lanes * table.lanes;
+    const T inside = task.shift + T(0.25) / task.scale;
     for (std::size_t k = 0; k < task.count; ++k) {
       const bool given = k < count();
       patch[k] = samples_.patch[given ? k : count() - 1];
-      u[k] = given ? samples_.u[k] : task.shift;
-      v[k] = given ? samples_.v[k] : task.shift;
+      u[k] = given ? samples_.u[k] : inside;
+      v[k] = given ? samples_.v[k] : inside;
     }
     static_cast<PatchArrays<T>&>(task) = bucket.arrays(0);
     task.common_floor = bucket.common_floor;
