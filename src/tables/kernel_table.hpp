@@ -146,11 +146,6 @@ enum OutputSet : std::size_t {
   kOutputSets
 };
 
-/// Returns how far the derivatives go that a set of outputs is computed from.
-constexpr std::size_t depth(OutputSet outputs) noexcept {
-  return outputs == kPosition ? 0 : outputs == kSecondDerivatives ? 2 : 1;
-}
-
 /// Nets of one shape to pack: where the arrays of patch 0 begin, and what positions become relative
 /// to.
 template <typename T, typename S>
