@@ -64,30 +64,18 @@ SIMDBEZIER_KERNEL void scatter_samples(const ScatteredCurveTask<T>& shared_task)
   }
 }
 
-template <bool kHalves, bool kRational, typename T>
-SIMDBEZIER_PART void scatter_depth(const ScatteredCurveTask<T>& task) {
-  if (depth_of(task) == 0) {
-    scatter_samples<kHalves, kRational, 0>(task);
-  } else {
-    scatter_samples<kHalves, kRational, 2>(task);
-  }
-}
-
-template <bool kHalves, typename T>
-SIMDBEZIER_PART void scatter_cells(const ScatteredCurveTask<T>& task) {
-  if (task.shape->rational) {
-    scatter_depth<kHalves, true>(task);
-  } else {
-    scatter_depth<kHalves, false>(task);
-  }
-}
-
 template <typename T>
 SIMDBEZIER_KERNEL void scattered_curve_kernel(ScatteredCurveTask<T>& task) {
+  const auto run = [&]<bool kHalves, bool kRational>() SIMDBEZIER_INLINE_LAMBDA {
+    depth_of(task) == 0 ? scatter_samples<kHalves, kRational, 0>(task)
+                        : scatter_samples<kHalves, kRational, 2>(task);
+  };
   if (task.shape->cells() == 2) {
-    scatter_cells<true>(task);
+    task.shape->rational ? run.template operator()<true, true>()
+                         : run.template operator()<true, false>();
   } else {
-    scatter_cells<false>(task);
+    task.shape->rational ? run.template operator()<false, true>()
+                         : run.template operator()<false, false>();
   }
   task.executed = Isa::SIMDBEZIER_ISA;
 }
