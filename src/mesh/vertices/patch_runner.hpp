@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "src/calls/grid_plan.hpp"
@@ -196,14 +197,24 @@ private:
   }
   /// Makes samples of what is in the planes.
   void collect(std::size_t count, VertexSample<T>* to) const noexcept {
-    for (std::size_t k = 0; k < count; ++k) {
-      to[k] = VertexSample<T>{};
-      for (std::size_t c = 0; c < dimension_; ++c) {
-        to[k].position[c] = planes_.position.component[c][k];
+    using Four = typename FourOf<T>::type;
+    const auto collect_vectors = [&](const Planes<T>& planes, Four VertexSample<T>::*member) {
+      constexpr std::size_t kPoints = PointBlock<T>::kPoints;
+      for (std::size_t k = 0; k < count; k += kPoints) {
+        typename PointBlock<T>::Values component[3] = {};
+        for (std::size_t c = 0; c < 3 && planes.component[c] != nullptr; ++c) {
+          std::memcpy(&component[c], planes.component[c] + k, sizeof component[c]);
+        }
+        Four vectors[kPoints];
+        turn_to_vectors<T>(component, vectors);
+        for (std::size_t i = 0; i < kPoints && k + i < count; ++i) {
+          to[k + i].*member = vectors[i];
+        }
       }
-      for (std::size_t c = 0; c < 3 && normals_; ++c) {
-        to[k].normal[c] = planes_.normal.component[c][k];
-      }
+    };
+    collect_vectors(planes_.position, &VertexSample<T>::position);
+    if (normals_) {
+      collect_vectors(planes_.normal, &VertexSample<T>::normal);
     }
   }
   /// aim_at(patches before, target) prepares the task.

@@ -2,6 +2,7 @@
 // several patches have.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -13,7 +14,7 @@
 
 namespace simdbezier::detail {
 
-/// Turns sums of unit normals at four points into normals: sum * inverse + kept * first + 0, never
+/// Turns sums of unit normals at some points into normals: sum * inverse + kept * first + 0, never
 /// -0, where first is the first term. That is the sum's direction; a single term stays as it is,
 /// and so does the first one where the sum is less than a thousandth of what it could be.
 /// finish_sum() of the kernels for edges does the same operations. terms: of each sum.
@@ -29,7 +30,7 @@ void finish_sums(const Values (&first)[3], const Values (&sum)[3], const Values&
   const auto merges = square >= (terms > one ? least * least : none);
   const Values kept = merges ? zero : one;
   Values roots = square + kept;
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < sizeof roots / sizeof(T); ++k) {
     roots[k] = std::sqrt(roots[k]);
   }
   const Values inverse = (one - kept) / roots;
@@ -91,19 +92,19 @@ public:
 
   /// Writes all that wait.
   void finish() noexcept {
-    for (std::size_t k = 0; k < count_; k += 4) {
-      Four column[4];
-      turn(position_ + k, column);
+    for (std::size_t k = 0; k < count_; k += kBlock) {
+      Block column[3];
+      turn_to_components<T>(position_ + k, column);
       store(column, to_.position, k);
       if (normals_) {
-        Four first[4];
-        Four sum[4];
-        turn(first_ + k, first);
-        turn(sum_ + k, sum);
-        Four terms;
+        Block first[3];
+        Block sum[3];
+        turn_to_components<T>(first_ + k, first);
+        turn_to_components<T>(sum_ + k, sum);
+        Block terms;
         std::memcpy(&terms, terms_ + k, sizeof terms);
-        Four normal[3];
-        finish_sums({first[0], first[1], first[2]}, {sum[0], sum[1], sum[2]}, terms, normal);
+        Block normal[3];
+        finish_sums(first, sum, terms, normal);
         store(normal, to_.normal, k);
       }
     }
@@ -113,28 +114,23 @@ public:
 private:
   using Four = typename FourOf<T>::type;
 
-  /// Turns four vectors into their components.
-  static void turn(const Four* row, Four (&column)[4]) noexcept {
-    const Four xy01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    const Four xy23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    const Four zw01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    const Four zw23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    column[0] = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5);
-    column[1] = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7);
-    column[2] = __builtin_shufflevector(zw01, zw23, 0, 1, 4, 5);
-    column[3] = __builtin_shufflevector(zw01, zw23, 2, 3, 6, 7);
-  }
-  /// Writes components of vertices k to k + 3, as far as there are so many.
-  void store(const Four* column, const Planes<T>& planes, std::size_t k) const noexcept {
+  static constexpr std::size_t kBlock = PointBlock<T>::kPoints;
+  using Block = typename PointBlock<T>::Values;
+
+  /// Writes components of the vertices of a block from k on, as far as there are so many.
+  void store(const Block (&column)[3], const Planes<T>& planes, std::size_t k) const noexcept {
     const std::size_t* const place = place_ + k;
-    const bool whole = to_.step == 1 && k + 4 <= count_ && place[1] == place[0] + 1 &&
-                       place[2] == place[0] + 2 && place[3] == place[0] + 3;
+    const std::size_t count = std::min(kBlock, count_ - k);
+    bool whole = to_.step == 1 && count == kBlock;
+    for (std::size_t i = 1; i < kBlock; ++i) {
+      whole = whole && place[i] == place[0] + i;
+    }
     for (std::size_t c = 0; c < 3 && planes.component[c] != nullptr; ++c) {
       if (whole) {
-        std::memcpy(planes.component[c] + place[0], &column[c], sizeof(Four));
+        std::memcpy(planes.component[c] + place[0], &column[c], sizeof(Block));
         continue;
       }
-      for (std::size_t i = 0; i < 4 && k + i < count_; ++i) {
+      for (std::size_t i = 0; i < count; ++i) {
         planes.component[c][place[i] * to_.step] = column[c][i];
       }
     }
