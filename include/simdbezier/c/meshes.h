@@ -113,7 +113,7 @@ typedef struct simdbezier_mesh_options {
   double point_size;
   double snap;
   double crease_degrees; // 0: none, all normals are merged
-  int32_t unshared; // not 0: patches share no vertices, as with crease_degrees = 0 in C++
+  int32_t unshared;      // not 0: patches share no vertices, as with crease_degrees = 0 in C++
   int32_t orient;
   int32_t flip;
   int32_t drop_repeated;
