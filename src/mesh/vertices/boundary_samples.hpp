@@ -89,8 +89,9 @@ public:
       if (mesh_.rate(side) == points + 1 && points < ClosedGrids<T>::kMostRate &&
           grids_.of(patch).whole) {
         const SampleRun<T> run = grids_.of(patch).side(side, reversed);
-        for (std::uint32_t k = 0; k < points; ++k) {
-          to[k] = run.first[k * run.step];
+        const VertexSample<T>* sample = run.first;
+        for (std::uint32_t k = 0; k < points; ++k, sample += run.step) {
+          to[k] = *sample;
         }
       } else {
         runner_.sample_side(patch, side % kPatchEdges, reversed ? reversed_ : line.along, points,
