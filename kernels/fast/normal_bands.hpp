@@ -12,9 +12,11 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Whether there are bands with normals.
+/// Whether there are bands with normals. WebAssembly has none of floats, which lose a fourth by
+/// them: V8 has few registers left.
 template <detail::OutputSet kOutputs, typename T>
-constexpr bool kSweepsNormalBands = (kOutputs == detail::kPositionNormal) && !kIsScalar<vec<T>>;
+constexpr bool kSweepsNormalBands = (kOutputs == detail::kPositionNormal) && !kIsScalar<vec<T>> &&
+                                    !(kSimd128 && sizeof(T) == sizeof(float));
 
 /// The tiles of a band, of one patch.
 template <typename T>
