@@ -176,16 +176,16 @@ private:
   }
   /// Finds the keys of the grids' rates in a block. They are those of corners if that is better:
   /// where no kernel takes closed grids, but one takes edges; to copy doubles takes as long as what
-  /// it saves; floats are copied unless registers remain too empty. Grids of more than 4 x 4
+  /// it saves; floats are copied unless registers remain too empty. Copies of more than 4 x 4
   /// samples pay for floats alone. Returns the set of all keys.
   std::uint32_t find_keys(std::size_t first, std::size_t count, bool can_copy,
                           std::uint8_t* keys) const noexcept {
     const std::uint32_t* const nu = mesh_.nu.data() + first;
     const std::uint32_t* const nv = mesh_.nv.data() + first;
-    constexpr std::uint32_t kMostWhole = sizeof(T) == sizeof(float) ? kMostRate : 3;
+    const std::uint32_t most = sizeof(T) == sizeof(float) || !can_copy ? kMostRate : 3;
     std::uint32_t found = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      const bool few = nu[k] <= kMostWhole && nv[k] <= kMostWhole;
+      const bool few = nu[k] <= most && nv[k] <= most;
       keys[k] = static_cast<std::uint8_t>(few ? Rates{nu[k], nv[k]}.key() : 0);
       found |= 1U << keys[k];
     }
