@@ -80,8 +80,6 @@ public:
     const auto all = topology_.sides_of(edge);
     const auto sides = all.first(every_patch_ ? all.size() : 1);
     const ParameterLine<T> line = line_of(edge);
-    std::transform(line.along, line.along + points + kMaxLanes, reversed_,
-                   [](T x) { return T(0) - x; }); // no -0
     VertexSample<T>* to = samples_;
     for (const std::uint32_t side : sides) {
       const std::size_t patch = side / kPatchEdges;
@@ -94,6 +92,10 @@ public:
           to[k] = *sample;
         }
       } else {
+        if (reversed) {
+          std::transform(line.along, line.along + points + kMaxLanes, reversed_,
+                         [](T x) { return T(0) - x; }); // no -0
+        }
         runner_.sample_side(patch, side % kPatchEdges, reversed ? reversed_ : line.along, points,
                             to);
       }

@@ -79,7 +79,7 @@ public:
 
   /// The line of a patch's columns or rows.
   ParameterLine<T> line(std::uint32_t rate) noexcept {
-    return rate <= ParameterLines<T>::kMost ? line(rate, rate) : samples_.lines().line(rate);
+    return rate <= ParameterLines<T>::kMost ? line(rate, rate) : samples_.lines().large_line(rate);
   }
   /// Writes all that waits.
   void finish() noexcept {

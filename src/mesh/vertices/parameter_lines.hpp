@@ -73,11 +73,8 @@ public:
     }
     return {to.along, to.shares};
   }
-  /// Those of any single rate. Valid until another large one is asked for for the second time.
-  ParameterLine<T> line(std::uint32_t rate) noexcept {
-    if (rate <= kMost) {
-      return line(rate, rate);
-    }
+  /// Those of a single rate above kMost. Valid until two others are asked for.
+  ParameterLine<T> large_line(std::uint32_t rate) noexcept {
     turn_ = large_rate_[turn_] == rate ? turn_ : 1 - turn_;
     const LineMemory<T>& to = large_[turn_];
     if (large_rate_[turn_] != rate) {
