@@ -8,6 +8,9 @@ import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { Worker } from 'node:worker_threads';
 import { brotliCompressSync, constants } from 'node:zlib';
 import { load } from 'simdbezier';
@@ -48,6 +51,7 @@ test('a set has the right values', () => {
       assert.deepEqual([...records.maximum].map(Math.abs), [0, 0, 0, 0]);
       const samples = set.samples([0, 0], [0.25, 1], [0.5, 0.5]);
       assert.deepEqual([...samples.position], [0.75, 1.5, 0, 3, 1.5, 0]);
+      assert.deepEqual([...modules[precision].patches(flat, { precision }).samples([], [], []).position], []);
       const mesh = set.tessellate({ grid: [2, 3], parameters: true, normals: false });
       assert.equal(mesh.stride, 5);
       assert.deepEqual([mesh.vertexCount, mesh.triangleCount], [6, 4]);
@@ -77,6 +81,16 @@ test('meshes are within the tolerance and without gaps', () => using_(teapot(), 
   assert.equal(apart.triangleCount, fine.triangleCount);
   assert.ok(apart.vertexCount > fine.vertexCount);
 }));
+
+test('edges are those of the last mesh', () => {
+  const beside = flat.map((value, k) => k % 3 === 0 ? value + 3.001 : value);
+  using_(bezier.patches([...flat, ...beside]), (set) => {
+    for (const [snap, edges, openEdges] of [[0, 8, 8], [0.01, 7, 6], [0, 8, 8]]) {
+      set.tessellate({ grid: 2, snap });
+      assert.deepEqual([set.edges, set.openEdges], [edges, openEdges], `${snap}`);
+    }
+  });
+});
 
 test('creases keep two normals', () => {
   const wedge = [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* and */ 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1];
@@ -141,6 +155,35 @@ test('the mesh in memory is that of the file', () => using_(teapot(), (set) => {
   assert.deepEqual(new Float32Array(glb.slice(body, body + mesh.vertices.byteLength).buffer), mesh.vertices);
 }));
 
+test('bytes come in any buffer', async () => {
+  const text = ['1', ...Array.from({ length: 16 }, (_, k) => flat.slice(3 * k, 3 * k + 3).join(' '))].join('\n').padEnd(120);
+  const bytes = new Uint8Array(new SharedArrayBuffer(128)).fill(46);
+  bytes.set(new TextEncoder().encode(text), 8);
+  const own = bytes.slice(8);
+  const sources = {
+    bytes: own, buffer: own.buffer, view: new DataView(bytes.buffer, 8), doubles: new Float64Array(own.buffer),
+    integers: new BigInt64Array(bytes.buffer, 8), shared: bytes.subarray(8),
+  };
+  for (const [name, source] of Object.entries(sources)) {
+    using_(bezier.read('m.bez', source), (set) => assert.equal(set.box.high[0], 3, name));
+    using_(await bezier.open('m.bez', source), (set) => assert.equal(set.box.high[0], 3, name));
+  }
+  for (const source of [new Blob([own]), new Blob([own]).stream(), Promise.resolve(new Response(own))]) {
+    (await bezier.open('m.bez', source)).free();
+  }
+  for (const [name, source, message] of [
+    ['m.bez', new Response('<html>', { status: 404 }), /m\.bez: expected an answer, found status 404/],
+    ['m.bez', new Response(null), /m\.bez:1: expected .* end of the file/],
+    ['m.bez.gz', new Response(null), /m\.bez:1: expected .* end of the file/],
+    ['m.bez.gz', own, /m\.bez: expected data that can be read and unpacked/],
+    ['m.bez', text, /m\.bez: expected bytes in a buffer, found .object String/],
+    ['m.bez', 42, /expected bytes in a buffer/],
+    ['m.bez', null, /expected bytes in a buffer/],
+  ]) {
+    await assert.rejects(bezier.open(name, source), message);
+  }
+});
+
 test('errors are those of the program', () => {
   const bytes = (text) => new TextEncoder().encode(text);
   for (const [act, message] of [
@@ -148,20 +191,30 @@ test('errors are those of the program', () => {
     [() => bezier.read('model.xyz', bytes('1')), /^model\.xyz: expected a name that ends in \.bez/],
     [() => bezier.read('m.rib', bytes('Patch "bicubic" "P" [0 0')), /^m\.rib:1: expected /],
     [() => bezier.read('m.bez', new Uint8Array([0x1f, 0x8b, 8, 0])), /^m\.bez:1: expected bytes that are unpacked/],
+    [() => bezier.read('m.bez', '1'), /^simdbezier: m\.bez: expected bytes in a buffer, found .object String/],
+    [() => bezier.read('m.bez', [49]), /expected bytes in a buffer/],
     [() => bezier.read('builtin:kettle'), /^builtin:kettle: expected a name/],
     [() => bezier.read('builtin:teapot', undefined, { precision: 'f64' }), /simdbezier\/f64/],
     [() => bezier.patches([1, 2, 3]), /expected a multiple of 48 values, found 3/],
     [() => bezier.patches(flat.map(() => NaN)), /./],
+    [() => bezier.patches({ length: 48 * 2 ** 25 }), /not enough memory/],
     [() => bezier.patches(flat, { degreeU: 16 }), /degreeU: expected an integer, 1 or more and at most 15, found 16/],
     [() => bezier.patches(flat, { degree: 3 }), /found degree/],
     [() => teapot().tessellate({}), /expected either a grid or some of tolerance/],
-    [() => teapot().tessellate({ relative: -1 }), /relative: expected a number/],
+    [() => teapot().tessellate({ relative: -1 }), /relative: expected a finite number/],
+    [() => teapot().tessellate({ tolerance: Infinity }), /tolerance: expected a finite number, .*found Infinity/],
+    [() => teapot().tessellate({ grid: [2] }), /grid: expected an integer, .*found undefined/],
+    [() => teapot().tessellate({ grid: null }), /grid: expected an integer, .*found null/],
     [() => teapot().tessellate({ relative: 1e-12 }), /--relative: expected /],
-    [() => teapot().tessellate({ tolerence: 1 }), /found tolerence/],
-    [() => teapot().grid(0), /nu: expected an integer/],
+    [() => teapot().tessellate({ tolerence: 1 }), /among grid, weld, tolerance, .*found tolerence/],
+    [() => teapot().tessellate({ nu: 3, nv: 3 }), /found nu/],
+    [() => teapot().grid(1), /nu: expected an integer, 2 or more/],
     [() => teapot().grid(100000, 100000), 'not enough memory'],
     [() => teapot().samples([0], [0.5], []), /1 patches, 1 u and 0 v/],
     [() => teapot().samples([32], [0.5], [0.5]), /patch/],
+    ...[0.5, -1, NaN, 2 ** 32, '0', undefined].map((patch) =>
+      [() => teapot().samples([0, patch], [0, 0], [0, 0]), `simdbezier: patches: expected numbers of patches, found ${patch}`]),
+    [() => teapot().samples({}, {}, {}), /patches.length: expected an integer/],
     [() => teapot().file('stl', { relative: 1e-3 }), /format: expected one of glb, ply, found stl/],
   ]) {
     assert.throws(act, (error) => error instanceof Error
@@ -190,6 +243,25 @@ test('views are guarded', async () => {
   assert.throws(() => set.tessellate({ relative: 1e-3 }), /has been freed/);
   assert.throws(() => set.grid(2), /has been freed/);
   if (Symbol.dispose) set[Symbol.dispose]();
+});
+
+test('a view keeps its set', async () => {
+  setFlagsFromString('--expose-gc');
+  const collect = runInNewContext('gc');
+  const own = await load();
+  own.patches(flat).grid(1500); // room, so that nothing detaches views
+  const results = () => own.read('builtin:teapot').grid(2, 2, { outputs: ['position', 'status'] });
+  for (const name of ['position', 'status']) {
+    const view = results()[name];
+    const before = view.slice();
+    for (let k = 0; k < 5; k++) {
+      collect();
+      await sleep(1);
+    }
+    const others = Array.from({ length: 50 }, results); // take all memory that has been given back
+    for (const set of others) set.position.fill(7) && set.status.fill(7);
+    assert.deepEqual(view, before);
+  }
 });
 
 test('memory does not grow over many meshes', async () => {

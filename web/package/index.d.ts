@@ -85,7 +85,8 @@ export interface MeshCopy {
 /**
  * A mesh in the memory of the instance. Each of its arrays is a view that is made when it is asked for. The mesh stays
  * until the next tessellate() or free() of its set; asking for an array later throws. A view that somebody has
- * kept is detached (its length is 0) once any call has made the memory grow: ask for it again, or copy().
+ * kept is detached (its length is 0) once any call has made the memory grow: ask for it again, or copy(). A set is not
+ * released by the garbage collector as long as somebody has such a view.
  */
 export type Mesh = MeshCopy;
 
@@ -126,12 +127,14 @@ export interface PatchSet {
   file(format: FileFormat, options: FileOptions): Uint8Array<ArrayBuffer>;
   /** Every patch on nu x nv samples, u fastest, patch after patch. */
   grid(nu: number, nv?: number, options?: SampleOptions): SampleArrays;
-  /** Sample k lies on patch patches[k] at (u[k], v[k]). */
+  /** Sample k lies on patch patches[k] at (u[k], v[k]). A Uint32Array of patches is passed on without a check. */
   samples(patches: ArrayLike<number>, u: ArrayLike<number>, v: ArrayLike<number>, options?: SampleOptions): SampleArrays;
   /** Frees the set and its results. */
   free(): void;
   [Symbol.dispose](): void;
 }
+
+export type Source = Blob | Response | ReadableStream<Uint8Array> | ArrayBufferLike | ArrayBufferView;
 
 export interface Simdbezier {
   /** The compiled code, to be sent to workers: instantiate(module) compiles nothing there. */
@@ -140,10 +143,9 @@ export interface Simdbezier {
   readonly memoryBytes: number;
   /** Reads a file's bytes; its name's extension says the format. 'builtin:teapot' needs no bytes.
    *  Errors have the place: "model.bez:3: expected a finite number, found 'z'". */
-  read(name: string, bytes?: ArrayBuffer | Uint8Array, options?: ReadOptions): PatchSet;
+  read(name: string, bytes?: ArrayBufferLike | ArrayBufferView, options?: ReadOptions): PatchSet;
   /** The same for files, answers of fetch() and streams, which are unpacked where the name ends in .gz. */
-  open(name: string, source: Blob | Response | ReadableStream<Uint8Array> | ArrayBuffer | Uint8Array<ArrayBuffer>,
-    options?: ReadOptions): Promise<PatchSet>;
+  open(name: string, source: Source | Promise<Source>, options?: ReadOptions): Promise<PatchSet>;
   /** The control points of all patches, u fastest, patch after patch. */
   patches(points: ArrayLike<number>, options?: PatchOptions): PatchSet;
 }

@@ -4,10 +4,11 @@
 const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY', 'highZ', 'edges', 'openEdges',
   'nonManifoldEdges', 'ignoredTrims', 'vertices', 'triangles', 'deviation', 'stride', 'indexBytes', 'vertexData',
   'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'statusData', 'fileData', 'fileBytes'];
-const MESH_OPTIONS = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
+const MESH_VALUES = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
   'flip', 'bits'];
+const MESH_OPTIONS = ['grid', 'weld', ...MESH_VALUES.filter((name) => name !== 'nu' && name !== 'nv')];
 const SAMPLE_OPTIONS = ['outputs', 'layout', 'watertight', 'copy'];
-const LINES = { least: 1, most: 2 ** 20, whole: true }; // of a grid
+const LINES = { least: 2, most: 2 ** 20, whole: true }; // of a grid
 const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
 const VECTORS = OUTPUTS.slice(0, OUTPUTS.indexOf('curvature'));
 const WISHES = []; // by bits: names of outputs, and those of them that are vectors
@@ -32,8 +33,8 @@ function choice(name, value, list) {
 }
 
 function number(name, value, { least = 0, most = Infinity, whole = false } = {}) {
-  if (typeof value !== 'number' || !(value >= least) || value > most || (whole && !Number.isInteger(value))) {
-    fail(`${name}: expected ${whole ? 'an integer' : 'a number'}, ${least} or more${most < Infinity ? ` and at most ${most}` : ''}, found ${String(value)}`);
+  if (!Number.isFinite(value) || value < least || value > most || (whole && !Number.isInteger(value))) {
+    fail(`${name}: expected ${whole ? 'an integer' : 'a finite number'}, ${least} or more${most < Infinity ? ` and at most ${most}` : ''}, found ${String(value)}`);
   }
   return value;
 }
@@ -42,6 +43,21 @@ function expectKnown(options, known) {
   for (const name in options) {
     if (!known.includes(name)) fail(`expected options among ${known.join(', ')}, found ${name}`);
   }
+}
+
+/** numbers: what became of values, which are such numbers. */
+function expectEqual(numbers, values) {
+  for (let k = 0; k < numbers.length; k++) {
+    if (numbers[k] !== values[k]) fail(`patches: expected numbers of patches, found ${String(values[k])}`);
+  }
+}
+
+/** The bytes of a buffer, or of a view of one, whatever its elements are. */
+function bytesOf(name, source) {
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  const type = Object.prototype.toString.call(source); // instanceof knows those of one window only
+  if (!/^.object (Shared)?ArrayBuffer.$/.test(type)) fail(`${name}: expected bytes in a buffer, found ${type}`);
+  return new Uint8Array(source);
 }
 
 /** What the last calls for a set left behind, as it was then. */
@@ -97,7 +113,7 @@ class Simdbezier {
     expectKnown(rest, []);
     const flags = choice('precision', precision, PRECISIONS) + (ignoreTrims ? 2 : 0);
     const text = new TextEncoder().encode(name);
-    const data = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
+    const data = bytesOf(name, bytes);
     return this.#made(text.length + data.length, flags, (at, heap) => {
       heap.set(data, at);
       heap.set(text, at + data.length);
@@ -106,15 +122,16 @@ class Simdbezier {
   }
 
   async open(name, source, options) {
-    let body = source instanceof Uint8Array || source instanceof ArrayBuffer ? new Response(source).body
-      : source instanceof Blob ? source.stream() : source.body ?? source;
-    if (/\.gz$/i.test(name)) {
-      body = body.pipeThrough(new DecompressionStream('gzip'));
-      name = name.slice(0, -3);
-    }
+    source = await source;
+    if (source instanceof Response && !source.ok) fail(`${name}: expected an answer, found status ${source.status}`);
+    if (![Response, Blob, ReadableStream].some((type) => source instanceof type)) source = bytesOf(name, source).slice();
+    const packed = /\.gz$/i.test(name);
+    if (packed) name = name.slice(0, -3);
     let bytes;
     try {
-      bytes = new Uint8Array(await new Response(body).arrayBuffer());
+      let answer = source instanceof Response ? source : new Response(source);
+      if (packed) answer = new Response(answer.body?.pipeThrough(new DecompressionStream('gzip')));
+      bytes = new Uint8Array(await answer.arrayBuffer());
     } catch (error) {
       throw new Error(`${name}: expected data that can be read and unpacked`, { cause: error });
     }
@@ -146,7 +163,8 @@ class Simdbezier {
 
 /** Lends memory of the instance to use(address, bytes of all of it). */
 function withMemory(wasm, bytes, use) {
-  const at = wasm.allocate(bytes + 8) >>> 0; // addresses above 2 GiB come as negative numbers
+  // Larger numbers would be cut to 32 bits. Addresses above 2 GiB come as negative numbers.
+  const at = bytes < 2 ** 32 - 8 ? wasm.allocate(bytes + 8) >>> 0 : 0;
   if (at === 0) fail('not enough memory');
   try {
     return use(at, new Uint8Array(wasm.memory.buffer));
@@ -190,7 +208,8 @@ class PatchSet {
   tessellate({ copy = false, ...options } = {}) {
     this.#call.mesh++;
     this.#wish(options, (at) => this.#wasm.tessellate(this.#use(), at));
-    const mesh = new Mesh(this.#views('mesh'), new Results(this.#results()));
+    this.#about = new Results(this.#results());
+    const mesh = new Mesh(this.#views('mesh'), this.#about);
     return copy ? mesh.copy() : mesh;
   }
 
@@ -209,7 +228,7 @@ class PatchSet {
   }
 
   samples(patches, u, v, options = {}) {
-    const count = patches.length;
+    const count = number('patches.length', patches.length, { whole: true });
     if (u.length !== count || v.length !== count) {
       fail(`expected as many u and v as patches, found ${count} patches, ${u.length} u and ${v.length} v`);
     }
@@ -219,7 +238,9 @@ class PatchSet {
       const buffer = this.#wasm.memory.buffer;
       new Values(buffer, at, count).set(u);
       new Values(buffer, at + each * count, count).set(v);
-      new Uint32Array(buffer, at + 2 * each * count, count).set(patches);
+      const numbers = new Uint32Array(buffer, at + 2 * each * count, count);
+      numbers.set(patches);
+      if (!(patches instanceof Uint32Array)) expectEqual(numbers, patches);
       return this.#wasm.samples(this.#use(), at + 2 * each * count, at, at + each * count, count, ...how);
     }));
   }
@@ -246,14 +267,17 @@ class PatchSet {
     if (!done) throw new Error(message(this.#wasm));
   }
 
-  #wish({ grid, weld = true, crease, normals = true, ...options }, call) {
-    expectKnown(options, MESH_OPTIONS);
+  #wish(wanted, call) {
+    expectKnown(wanted, MESH_OPTIONS);
+    const { grid, weld = true, crease, normals = true, ...options } = wanted;
     const wish = { ...options, normals, crease: weld ? crease : 0 };
-    if (grid !== undefined) [wish.nu, wish.nv] = typeof grid === 'number' ? [grid, grid] : grid;
+    if (grid !== undefined) {
+      [wish.nu, wish.nv] = grid?.[Symbol.iterator] ? grid : [grid, grid];
+      for (const name of ['nu', 'nv']) number('grid', wish[name], { least: 2, most: 2 ** 16 + 1, whole: true });
+    }
     for (const name of ['tolerance', 'relative', 'angle']) {
       if (wish[name] !== undefined) number(name, wish[name], { least: Number.MIN_VALUE });
     }
-    for (const name of ['nu', 'nv']) if (wish[name] !== undefined) number('grid', wish[name], { least: 2, most: 2 ** 16 + 1, whole: true });
     for (const name of ['crease', 'snap']) if (wish[name] !== undefined) number(name, wish[name]);
     if (wish.bits !== undefined) choice('bits', wish.bits, [8, 16]);
     const adaptive = wish.tolerance ?? wish.relative ?? wish.angle;
@@ -261,9 +285,9 @@ class PatchSet {
       fail('expected either a grid or some of tolerance, relative and angle');
     }
     const flags = ['parameters', 'orient', 'flip', 'normals'];
-    this.#expect(withMemory(this.#wasm, 8 * MESH_OPTIONS.length, (at) => {
-      new Float64Array(this.#wasm.memory.buffer, at, MESH_OPTIONS.length)
-        .set(MESH_OPTIONS.map((name) => flags.includes(name) ? (wish[name] ? 1 : 0) : wish[name] ?? NaN));
+    this.#expect(withMemory(this.#wasm, 8 * MESH_VALUES.length, (at) => {
+      new Float64Array(this.#wasm.memory.buffer, at, MESH_VALUES.length)
+        .set(MESH_VALUES.map((name) => flags.includes(name) ? (wish[name] ? 1 : 0) : wish[name] ?? NaN));
       return call(at);
     }));
   }
@@ -283,11 +307,22 @@ class PatchSet {
   #views(kind) {
     const call = this.#call[kind];
     const Values = this.#doubles ? Float64Array : Float32Array;
-    return (address, count, Type = Values) => {
+    return (address, count, Type = Values, skipped = 0) => {
       if (call !== this.#call[kind]) fail(`these results were replaced by a later call: keep them with copy()`);
       this.#use();
-      return new Type(this.#wasm.memory.buffer, address, count);
+      const view = new Type(this.#wasm.memory.buffer, address + skipped * Type.BYTES_PER_ELEMENT, count);
+      new Owned(view, this);
+      return view;
     };
+  }
+}
+
+/** Gives a view a private field with its set, which is not released then as long as somebody has the view. */
+class Owned extends (class { constructor(view) { return view; } }) {
+  #set;
+  constructor(view, set) {
+    super(view);
+    this.#set = set;
   }
 }
 
@@ -326,8 +361,7 @@ class SampleArrays {
     return this.#wanted.includes('status') ? this.#view(this.#about.statusData, this.count, Uint8Array) : undefined;
   }
   #part(first, values) { // a sample
-    const all = this.#view(this.#about.sampleData, (first + values) * this.count);
-    return all.subarray(first * this.count);
+    return this.#view(this.#about.sampleData, values * this.count, undefined, first * this.count);
   }
   copy() { return copied(this, ARRAYS.filter((name) => this[name]), ['count']); }
 

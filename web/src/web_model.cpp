@@ -53,7 +53,8 @@ template <typename V>
 class Room {
 public:
   V* for_values(std::size_t count) {
-    if (count > capacity_) {
+    if (count > capacity_ ||
+        values_ == nullptr) { // a null pointer would be an output that is not wanted
       if (count > std::numeric_limits<std::size_t>::max() / sizeof(V)) {
         throw std::bad_alloc();
       }
