@@ -68,6 +68,27 @@ test('samples are those of the grid', () => using_(teapot(), (set) => {
   assert.deepEqual(samples.normal, grid.normal);
 }));
 
+test('outputs are the same together and alone, in every layout', () => {
+  const vectors = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal'];
+  const curvatures = ['gaussian', 'mean', 'minimum', 'maximum'];
+  for (const precision of ['f32', 'f64']) {
+    using_(teapot({ precision }), (set) => {
+      const alone = (output) => set.grid(3, 4, { outputs: [output, 'status'], copy: true });
+      const all = (layout) => set.grid(3, 4, { outputs: ['status', ...vectors, 'curvature'], layout, copy: true });
+      const [together, planes, records] = [all('triples'), all('planes'), all('interleaved')];
+      for (const results of [together, planes, records]) {
+        for (const name of [...curvatures, 'status']) assert.deepEqual(results[name], alone('curvature')[name], name);
+      }
+      vectors.forEach((name, output) => {
+        const expected = alone(name)[name];
+        assert.deepEqual(together[name], expected);
+        assert.deepEqual(planes[name], expected.map((_, k) => expected[k % 384 * 3 + Math.floor(k / 384)]), name);
+        assert.deepEqual(expected.map((_, k) => records.records[Math.floor(k / 3) * 21 + 3 * output + k % 3]), expected, name);
+      });
+    });
+  }
+});
+
 test('meshes are within the tolerance and without gaps', () => using_(teapot(), (set) => {
   const fine = set.tessellate({ relative: 1e-3, copy: true });
   assert.ok(fine.deviation > 0 && fine.deviation <= 1e-3 * set.diagonal);

@@ -3,7 +3,7 @@
 
 const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY', 'highZ', 'edges', 'openEdges',
   'nonManifoldEdges', 'ignoredTrims', 'vertices', 'triangles', 'deviation', 'stride', 'indexBytes', 'vertexData',
-  'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'statusData', 'fileData', 'fileBytes'];
+  'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'sampleStep', 'statusData', 'fileData', 'fileBytes'];
 const MESH_VALUES = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
   'flip', 'bits'];
 const MESH_OPTIONS = ['grid', 'weld', ...MESH_VALUES.filter((name) => name !== 'nu' && name !== 'nv')];
@@ -67,11 +67,12 @@ class Results {
 RESULTS.forEach((name, k) => Object.defineProperty(Results.prototype, name, { get() { return this.values[k]; } }));
 
 /** What the last grid or samples left behind. Copies of all results would take most of the time of a small call. */
-const [SAMPLES, SAMPLE_DATA, STATUS_DATA] = ['samples', 'sampleData', 'statusData'].map((name) => RESULTS.indexOf(name));
+const [SAMPLES, SAMPLE_DATA, SAMPLE_STEP, STATUS_DATA] = ['samples', 'sampleData', 'sampleStep', 'statusData'].map((name) => RESULTS.indexOf(name));
 class SampleResults {
   constructor(values) {
     this.samples = values[SAMPLES];
     this.sampleData = values[SAMPLE_DATA];
+    this.sampleStep = values[SAMPLE_STEP];
     this.statusData = values[STATUS_DATA];
   }
 }
@@ -356,12 +357,14 @@ class SampleArrays {
     this.#records = layout === 'interleaved';
   }
   get count() { return this.#about.samples; }
-  get records() { return this.#records ? this.#part(0, 3 * this.#vectors.length) : undefined; }
+  get records() { return this.#records ? this.#part(0, 0, 3 * this.#vectors.length) : undefined; }
   get status() {
     return this.#wanted.includes('status') ? this.#view(this.#about.statusData, this.count, Uint8Array) : undefined;
   }
-  #part(first, values) { // a sample
-    return this.#view(this.#about.sampleData, values * this.count, undefined, first * this.count);
+  /** Returns so many values a sample: the first ones, or those behind so many vectors and single values. */
+  #part(vectors, singles, values) {
+    return this.#view(this.#about.sampleData, values * this.count, undefined,
+      vectors * this.#about.sampleStep + singles * this.count);
   }
   copy() { return copied(this, ARRAYS.filter((name) => this[name]), ['count']); }
 
@@ -369,10 +372,10 @@ class SampleArrays {
     const define = (name, find) => Object.defineProperty(this.prototype, name, { get() { return find(this); } });
     VECTORS.forEach((name) => define(name, (all) => {
       const k = all.#vectors.indexOf(name);
-      return k < 0 || all.#records ? undefined : all.#part(3 * k, 3);
+      return k < 0 || all.#records ? undefined : all.#part(k, 0, 3);
     }));
     CURVATURES.forEach((name, k) => define(name, (all) =>
-      all.#wanted.includes('curvature') ? all.#part(3 * all.#vectors.length + k, 1) : undefined));
+      all.#wanted.includes('curvature') ? all.#part(all.#vectors.length, k, 1) : undefined));
   }
 }
 

@@ -220,10 +220,14 @@ Outputs<T> TypedModel<T>::outputs(std::size_t samples, const SampleWish& wish) {
   }
   const std::size_t each =
       3 * vectors.size() + (wish.wants(Output::curvature) ? kCurvatureKinds : 0);
-  T* const values = samples_.for_values(product(samples, each));
+  // One line lies between outputs, or lines of the same samples might all share one set of a cache.
+  const std::size_t line = 64 / sizeof(T);
+  const std::size_t step = 3 * samples + line;
+  const std::size_t all = product(samples, each * sizeof(T)) / sizeof(T); // lines can be added
+  T* const values = samples_.for_values(all + vectors.size() * line);
   Outputs<T> out;
   for (std::size_t k = 0; k < vectors.size(); ++k) {
-    T* const first = values + 3 * k * samples;
+    T* const first = values + k * step;
     out[vectors[k]] =
         wish.layout == SampleWish::planes
             ? Vectors<T>::planes(first, first + samples, first + 2 * samples)
@@ -232,7 +236,7 @@ Outputs<T> TypedModel<T>::outputs(std::size_t samples, const SampleWish& wish) {
             : Vectors<T>::xyz(values + 3 * k, static_cast<std::ptrdiff_t>(3 * vectors.size()));
   }
   for (std::size_t k = 0; wish.wants(Output::curvature) && k < kCurvatureKinds; ++k) {
-    out.curvature[static_cast<Curvature>(k)] = values + (3 * vectors.size() + k) * samples;
+    out.curvature[static_cast<Curvature>(k)] = values + vectors.size() * step + k * samples;
   }
   if (wish.wants(Output::status)) {
     out.status = statuses_.for_values(samples);
@@ -240,6 +244,7 @@ Outputs<T> TypedModel<T>::outputs(std::size_t samples, const SampleWish& wish) {
   }
   results_.samples = static_cast<double>(samples);
   results_.sample_data = place_of(values);
+  results_.sample_step = static_cast<double>(step);
   return out;
 }
 

@@ -63,6 +63,7 @@ struct Results {
   double first_triangle_data; ///< a uint32 for each patch, and the number of all triangles
   double samples;
   double sample_data;
+  double sample_step; ///< values from one output to the next
   double status_data; ///< a byte for each sample
   double file_data;
   double file_bytes;
