@@ -17,8 +17,9 @@ template <typename T, std::size_t kPlanes>
 SIMDBEZIER_PART bool lines_stay(const GridTask<T>& task, const T* const (&planes)[kPlanes],
                                 std::size_t rows) {
   constexpr std::size_t kSetBytes = 64 * 64;
-  // Registers of a fourth of a line come to each line so often that half of them are too many.
-  constexpr std::size_t kLines = kLanes<vec<T>> * sizeof(T) < 32 ? 4 : 8;
+  // Registers of a fourth of a line come to each line so often that half of them are too many. In
+  // WebAssembly, what is swept instead gains less.
+  constexpr std::size_t kLines = kLanes<vec<T>> * sizeof(T) < 32 && !kSimd128 ? 4 : 8;
   const std::size_t row = task.nu * sizeof(T);
   const std::size_t distance = row & (~row + 1); // the largest power of two in it
   const auto place = [&](const T* plane) SIMDBEZIER_INLINE_LAMBDA {

@@ -19,16 +19,6 @@ namespace simdbezier::detail {
 
 inline constexpr std::size_t kMostStripRows = 32;
 
-/// Bytes of the shortest registers whose kernels sweep normals in bands; WebAssembly has no bands
-/// of floats.
-#if defined(__wasm__)
-template <typename T>
-inline constexpr std::size_t kLeastBand = sizeof(T) == sizeof(float) ? 32 : 16;
-#else
-template <typename T>
-inline constexpr std::size_t kLeastBand = 16;
-#endif
-
 /// Whether a task of kAnyOutputs, which stands for patches of any shape as well, wants positions
 /// alone.
 template <typename T>
@@ -51,7 +41,7 @@ template <typename T>
   const bool in_bands =
       task.origins == nullptr && distance < 4096 &&
       (outputs == kPositionNormal
-           ? register_bytes >= kLeastBand<T>
+           ? register_bytes >= 16
            : register_bytes >= 32 && (outputs == kPosition || outputs == kPositionDerivatives));
   const bool leaves = task.drain != nullptr || (line_wide && task.plain_to_memory);
   if (distance < 512 || task.streaming || task.record > 1 || leaves || in_bands) {
