@@ -45,13 +45,12 @@ struct TileSweeper {
 };
 
 /// Whether a single last column goes along with the register before it. WebAssembly has it in a
-/// register that overlaps, but for derivatives: that is 2 KB less to load, and as fast. SSE2 has it
-/// so for derivatives and for doubles, of which a register has no more than two.
+/// register that overlaps, which is less to load, and as fast. SSE2 has it so for derivatives and
+/// for doubles, of which a register has no more than two.
 template <detail::OutputSet kOutputs, typename V>
 constexpr bool kSingleColumns =
-    kSimd128 ? kOutputs == detail::kPositionDerivatives
-             : kUsual<kOutputs> &&
-                   !(kSse2 && (kLanes<V> == 2 || kOutputs == detail::kPositionDerivatives));
+    kUsual<kOutputs> && !kSimd128 &&
+    !(kSse2 && (kLanes<V> == 2 || kOutputs == detail::kPositionDerivatives));
 
 /// Whether the last `rest` columns of `first` and more take a register of their own that begins
 /// within the one before it. Some columns are computed twice, by idle lanes. That saves stores of
