@@ -231,7 +231,7 @@ private:
     const double allowed =
         order == 0 ? larger_of(tolerance_, detail::kRegularTolerance) : tolerance_;
     const double error = bound_ * du.size * dv.size + kSmallest;
-    const MaskOf<Wide> found = open & (Wide(error) <= size * Wide(allowed));
+    const MaskOf<Wide> found = open & (Wide(error) < size * Wide(allowed));
     for (std::size_t c = 0; c < 3; ++c) {
       answer.vector[c] = select_where<Wide>(found, n[c], answer.vector[c]);
     }

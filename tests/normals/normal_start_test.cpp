@@ -151,6 +151,9 @@ TEST_P(NormalStartTest, the_start_in_float_has_the_bits_of_the_whole_series) {
 TEST_P(NormalStartTest, the_start_in_double_has_the_bits_of_the_whole_series) {
   expect_bits_of_the_series<double>(300);
 }
+TEST_P(NormalStartTest, nothing_is_certain_where_the_inverse_of_the_size_is_infinite) {
+  expect_bits_of_the_series<double>(-1035);
+}
 INSTANTIATE_FOR_EVERY_ISA(NormalStartTest);
 
 } // namespace
