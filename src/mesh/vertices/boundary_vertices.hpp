@@ -244,7 +244,7 @@ private:
         if (to_.parameters.wanted() && entry.corner) {
           put_corner_parameters(member.place, member.vertex);
         } else if (to_.parameters.wanted()) {
-          put_side_parameters(member.place, shares, entry.points, k, member.vertex);
+          put_side_parameters(member.place, shares, entry.points, k, 1, member.vertex);
         }
       });
     }
@@ -275,13 +275,21 @@ private:
     const T v = sides[2 + corner % 2].collapsed() ? T(0.5) : T(corner % 4 / 2);
     to_.parameters.put(vertex - to_.parameters_first, static_cast<std::uint32_t>(patch), u, v);
   }
-  /// Those of point k of a side's edge, in the edge's direction.
-  void put_side_parameters(std::uint32_t side, const T* shares, std::uint32_t points,
-                           std::uint32_t k, std::size_t vertex) const noexcept {
-    const T t = shares[topology_.sides[side].reversed() ? points - 1 - k : k];
-    const T end = T(side % 2);
-    to_.parameters.put(vertex - to_.parameters_first, side / kPatchEdges, runs_in_u(side) ? t : end,
-                       runs_in_u(side) ? end : t);
+  /// Those of `count` of a side's points from `k` on, in the direction of its edge.
+  void put_side_parameters(std::uint32_t side, const T* shares, std::size_t points, std::size_t k,
+                           std::size_t count, std::size_t vertex) const noexcept {
+    static constexpr T kEnds[] = {0, 1};
+    const bool reversed = topology_.sides[side].reversed();
+    const std::ptrdiff_t step = reversed ? -1 : 1;
+    const T* const t = shares + (reversed ? points - 1 - k : k);
+    const T* const end = kEnds + side % 2;
+    const std::uint32_t patch = side / kPatchEdges;
+    vertex -= to_.parameters_first;
+    if (runs_in_u(side)) {
+      to_.parameters.put_run(vertex, count, patch, t, step, end, 0);
+    } else {
+      to_.parameters.put_run(vertex, count, patch, end, 0, t, step);
+    }
   }
   void put_parameters(std::uint32_t edge) noexcept {
     const auto sides = topology_.sides_of(edge);
@@ -289,9 +297,7 @@ private:
     const auto [low, high] = std::minmax({mesh_.rate(sides.front()), mesh_.rate(sides.back())});
     const bool kept = sides.size() <= 2 && high <= ParameterLines<T>::kMost;
     const T* const shares = (kept ? line(low, high) : samples_.line_of(edge)).shares;
-    for (std::uint32_t k = 0; k < points; ++k) {
-      put_side_parameters(sides.front(), shares, points, k, mesh_.edge_first[edge] + k);
-    }
+    put_side_parameters(sides.front(), shares, points, 0, points, mesh_.edge_first[edge]);
   }
 
   const MeshData& mesh_;

@@ -242,7 +242,7 @@ private:
     const RowRun<T> ends[2] = {runs[0], runs[2]};
     const bool inner = nv > 1;
     const PieceParameters<T> piece{x, nu + std::size_t{1}, inner ? runs : ends,
-                                   inner ? std::size_t{3} : std::size_t{2}, nv + std::size_t{1}};
+                                   inner ? std::size_t{3} : std::size_t{2}, group.rates.samples()};
     if (bucket != nullptr) {
       runner_.sample(copies_, *bucket, group.first, std::max(group.count, runner_.lanes()), piece,
                      to);

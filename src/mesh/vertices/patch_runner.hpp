@@ -24,10 +24,10 @@ struct PieceParameters {
   std::size_t columns;
   const RowRun<T>* runs;
   std::size_t run_count;
-  std::size_t rows; ///< of all runs
+  std::size_t patch_step; ///< samples from one patch to the next
 };
 
-/// The memory that a patch's samples go to: rows one after the other, patches likewise.
+/// The memory that samples go to: a patch's rows one after the other.
 template <typename T>
 struct PieceTarget {
   Planes<T> position;
@@ -53,6 +53,8 @@ public:
         most_(plane_values(most_points)) {
     std::fill_n(low_, kMaxLanes + 1, T(-0.5));
     std::fill_n(high_, kMaxLanes + 1, T(0.5));
+    grid_.cached_bytes = cached_sample_bytes();
+    grid_.cached_bytes = cached_sample_bytes();
     for (std::size_t c = 0; c < 6; ++c, memory += whole_lines(most_ * sizeof(T))) {
       const bool wanted = c < 3 ? c < dimension : normals;
       T*& plane = (c < 3 ? planes_.position : planes_.normal).component[c % 3];
@@ -231,7 +233,7 @@ private:
       run_grid(count, piece, target);
       return;
     }
-    const std::size_t samples = piece.rows * piece.columns;
+    const std::size_t samples = piece.patch_step;
     for (std::size_t first = 0; first < count;) {
       const std::size_t part = std::min(count - first, most_ / samples);
       aim_at(first, planes_);
@@ -247,7 +249,7 @@ private:
     grid_.nu = piece.columns;
     grid_.runs = piece.runs;
     grid_.run_count = piece.run_count;
-    grid_.patch_step = piece.rows * piece.columns;
+    grid_.patch_step = piece.patch_step;
     grid_.record = to.record;
     grid_.by_lines = kernels_.by_lines;
     grid_.allowed = kernels_.allowed;

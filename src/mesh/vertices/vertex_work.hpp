@@ -65,7 +65,7 @@ public:
       }
       const std::size_t points = mesh_.inner_points(patch);
       if (points > 0) {
-        run_rows(patch, rows_before(patch, begin), rows_before(patch, end));
+        add_rows(patch, rows_before(patch, begin), rows_before(patch, end));
       }
       first = inner + points;
     }
@@ -108,6 +108,7 @@ private:
     }
   }
   void pass_on() noexcept {
+    run_group();
     boundary_.finish();
     if (filled_ > 0) {
       sink_.end(filled_);
@@ -128,81 +129,124 @@ private:
     }
   }
 
-  void run_rows(std::size_t patch, std::size_t row, std::size_t last) noexcept {
+  /// Rows of inner points: those of patches of few cells are known, others wait for a kernel.
+  void add_rows(std::size_t patch, std::size_t row, std::size_t last) noexcept {
     const std::size_t columns = mesh_.nu[patch] - 1;
     if (row == last) {
       return;
     }
     const bool few = std::max(mesh_.nu[patch], mesh_.nv[patch]) <= ClosedGrids<T>::kMostRate;
     const ClosedGrid<T>* const grid = few ? &samples_.grids().of(patch) : nullptr;
-    const bool copies = grid != nullptr && grid->whole;
     while (row < last) {
       make_room(mesh_.inner[patch] + row * columns, columns);
       const std::size_t rows = std::min({last - row, (chunk_ - filled_) / columns, kMostMeshRows});
-      const PieceTarget<T> to{moved(target_.position), moved(target_.normal), target_.step,
-                              target_.drain};
-      ParameterLine<T> x{};
-      ParameterLine<T> y{};
-      if (!copies || target_.parameters.wanted()) {
-        x = boundary_.line(mesh_.nu[patch]);
-        y = boundary_.line(mesh_.nv[patch]);
-      }
-      if (copies) {
-        put_rows(*grid, row, rows, to);
-      } else {
-        const RowRun<T> run{y.along + row, static_cast<std::uint32_t>(rows), RowKind::interior};
-        samples_.runner().run(patch, 1, {x.along, columns, &run, 1, rows}, to);
-      }
-      turn_rows(patch, rows * columns, to.normal);
-      if (target_.parameters.wanted()) {
-        put_parameters(patch, row, rows, x.shares, y.shares);
+      if (grid != nullptr && grid->whole) {
+        put_rows(*grid, row, rows);
+        finish_rows(patch, row, rows);
+      } else if (!joins_group(patch, row, rows)) {
+        run_group();
+        group_ = {patch, 1, row, rows, 0};
       }
       row += rows;
       filled_ += rows * columns;
     }
   }
-  static void put_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows,
-                       const PieceTarget<T>& to) noexcept {
-    std::size_t at = 0;
-    for (std::size_t j = row; j < row + rows; ++j) {
-      const VertexSample<T>* const samples = grid.first + (j + 1) * grid.columns + 1;
-      for (std::size_t i = 0; i + 2 < grid.columns; ++i, at += to.record) {
-        for (std::size_t c = 0; c < 3 && to.position.component[c] != nullptr; ++c) {
-          to.position.component[c][at] = samples[i].position[c];
-        }
-        for (std::size_t c = 0; c < 3 && to.normal.wanted(); ++c) {
-          to.normal.component[c][at] = samples[i].normal[c];
+  void put_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows) const noexcept {
+    const PieceTarget<T> to = target_at(grid.patch, row);
+    const std::size_t columns = grid.columns; // which stores cannot change
+    const VertexSample<T>* const first = grid.first + (row + 1) * columns + 1;
+    const auto put = [&](const Planes<T>& planes, const T* from) {
+      if (!planes.wanted()) {
+        return;
+      }
+      // What is not wanted goes where x goes, before it.
+      T* x = planes.component[0];
+      T* y = planes.component[1] != nullptr ? planes.component[1] : x;
+      T* z = planes.component[2] != nullptr ? planes.component[2] : x;
+      for (std::size_t j = 0; j < rows; ++j, from += 2 * kSampleRecord) {
+        for (std::size_t i = 2; i < columns; ++i, from += kSampleRecord) {
+          *z = from[2];
+          *y = from[1];
+          *x = from[0];
+          x += to.record;
+          y += to.record;
+          z += to.record;
         }
       }
+    };
+    put(to.position, reinterpret_cast<const T*>(&first->position));
+    put(to.normal, reinterpret_cast<const T*>(&first->normal));
+  }
+  /// Adds a patch to the group if all of its rows are as those of the patch before.
+  bool joins_group(std::size_t patch, std::size_t row, std::size_t rows) noexcept {
+    if (group_.patches == 0 || patch != group_.patch + group_.patches || row + group_.row > 0 ||
+        rows != group_.rows || rows + 1 != mesh_.nv[patch - 1] || rows + 1 != mesh_.nv[patch] ||
+        mesh_.nu[patch] != mesh_.nu[patch - 1] || samples_.runner().together(patch - 1, 2) < 2) {
+      return false;
+    }
+    const std::size_t step = mesh_.inner[patch] - mesh_.inner[patch - 1];
+    if (group_.patches > 1 && step != group_.step) {
+      return false;
+    }
+    group_.step = step;
+    ++group_.patches;
+    return true;
+  }
+  void run_group() noexcept {
+    const auto [patch, patches, row, rows, step] = group_;
+    group_.patches = 0;
+    if (patches > 0) {
+      const std::size_t columns = mesh_.nu[patch] - 1;
+      const T* const x = boundary_.line(mesh_.nu[patch]).along;
+      const T* const y = boundary_.line(mesh_.nv[patch]).along;
+      const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
+      samples_.runner().run(patch, patches, {x, columns, &run, 1, step}, target_at(patch, row));
+    }
+    for (std::size_t k = 0; k < patches; ++k) {
+      finish_rows(patch + k, row, rows);
     }
   }
-  /// Planes behind what the chunk holds already.
-  [[nodiscard]] Planes<T> moved(const Planes<T>& planes) const noexcept {
-    Planes<T> result;
-    for (std::size_t c = 0; c < 3; ++c) {
-      T* const plane = planes.component[c];
-      result.component[c] = plane == nullptr ? nullptr : plane + filled_ * target_.step;
-    }
-    return result;
+  /// Where rows of inner points go that follow each other.
+  [[nodiscard]] PieceTarget<T> target_at(std::size_t patch, std::size_t row) const noexcept {
+    const std::size_t vertex = mesh_.inner[patch] + row * (mesh_.nu[patch] - 1);
+    const auto moved = [&](Planes<T> planes) {
+      for (T*& plane : planes.component) {
+        plane = plane == nullptr ? nullptr : plane + (vertex - target_.first) * target_.step;
+      }
+      return planes;
+    };
+    return {moved(target_.position), moved(target_.normal), target_.step, target_.drain};
   }
-  /// Turns normals of points one after the other, if their patch is turned.
-  void turn_rows(std::size_t patch, std::size_t points, const Planes<T>& normals) const noexcept {
+  /// Turns normals of rows if their patch is turned, and puts the rows' parameters.
+  void finish_rows(std::size_t patch, std::size_t row, std::size_t rows) noexcept {
+    const std::size_t columns = mesh_.nu[patch] - 1;
     if (task_.normals && mesh_.topology.data()->is_turned(patch)) {
-      for (T* const plane : normals.component) {
-        for (std::size_t k = 0; k < points; ++k) {
+      for (T* const plane : target_at(patch, row).normal.component) {
+        for (std::size_t k = 0; k < rows * columns; ++k) {
           plane[k * target_.step] = T(0) - plane[k * target_.step];
         }
       }
     }
-  }
-  void put_parameters(std::size_t patch, std::size_t row, std::size_t rows, const T* u,
-                      const T* v) const noexcept {
-    const std::size_t columns = mesh_.nu[patch] - 1;
+    if (!target_.parameters.wanted()) {
+      return;
+    }
+    const T* const u = boundary_.line(mesh_.nu[patch]).shares;
+    const T* const v = boundary_.line(mesh_.nv[patch]).shares;
     for (std::size_t j = row; j < row + rows; ++j) {
-      const std::size_t vertex = mesh_.inner[patch] + j * columns - target_.parameters_first;
-      target_.parameters.put_row(vertex, columns, static_cast<std::uint32_t>(patch), u, v[j]);
+      target_.parameters.put_run(mesh_.inner[patch] + j * columns - target_.parameters_first,
+                                 columns, static_cast<std::uint32_t>(patch), u, 1, v + j, 0);
     }
   }
+
+  /// Rows of inner points that wait for a kernel: those of one patch, or all rows of patches whose
+  /// rates are the same, and whose rows are equally far apart.
+  struct RowGroup {
+    std::size_t patch;
+    std::size_t patches;
+    std::size_t row; ///< the first one
+    std::size_t rows;
+    std::size_t step; ///< vertices from one patch's rows to the next one's
+  };
 
   const VertexTask<T>& task_;
   const MeshData& mesh_;
@@ -213,6 +257,7 @@ private:
   BoundarySamples<T> samples_;
   BoundaryVertices<T> boundary_;
   std::size_t filled_ = 0; ///< vertices of the chunk
+  RowGroup group_{};
 };
 
 } // namespace simdbezier::detail
