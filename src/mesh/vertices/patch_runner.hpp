@@ -54,7 +54,6 @@ public:
     std::fill_n(low_, kMaxLanes + 1, T(-0.5));
     std::fill_n(high_, kMaxLanes + 1, T(0.5));
     grid_.cached_bytes = cached_sample_bytes();
-    grid_.cached_bytes = cached_sample_bytes();
     for (std::size_t c = 0; c < 6; ++c, memory += whole_lines(most_ * sizeof(T))) {
       const bool wanted = c < 3 ? c < dimension : normals;
       T*& plane = (c < 3 ? planes_.position : planes_.normal).component[c % 3];
