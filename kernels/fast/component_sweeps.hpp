@@ -25,15 +25,20 @@ using ComponentTile =
 /// Sweeps patches [patch, last_patch) without origins in such tiles, at least two a row. Where
 /// these do not fit, the last one begins within the one before it, even for a single column: a
 /// buffer for it would be filled three times a patch.
-template <detail::OutputSet kOutputs, typename Piece, typename T>
-SIMDBEZIER_KERNEL void sweep_by_components(const GridTask<T>& shared_task, const Piece& piece,
-                                           std::size_t patch, std::size_t last_patch) {
+template <detail::OutputSet kOutputs, Known kKnown, typename Piece, typename T>
+SIMDBEZIER_KERNEL void sweep_by_components(const GridTask<T>& shared_task,
+                                           const Piece& shared_piece, std::size_t patch,
+                                           std::size_t last_patch) {
   using V = vec<T>;
   using Tile = ComponentTile<kOutputs, V>;
   constexpr std::size_t kL = Tile::kColumns;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
   GridTask<T> task = shared_task;
-  assume<Known::no_origins>(task);
+  assume<kKnown>(task);
+  std::conditional_t<kKnown == Known::closed, Piece, const Piece&> piece = shared_piece;
+  if constexpr (kKnown == Known::closed) {
+    assume_rows<kKnown>(piece);
+  }
   const std::size_t nu = task.nu;
   const ColumnPlanes<T> none{nullptr};
   for (; patch < last_patch; ++patch) {
@@ -45,7 +50,7 @@ SIMDBEZIER_KERNEL void sweep_by_components(const GridTask<T>& shared_task, const
     for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
       for (std::size_t next = 0; next < nu; next += kL) {
         const std::size_t first = next + kL <= nu ? next : nu - kL;
-        const Tile tile(task.x, first, kL, task.watertight);
+        const Tile tile(task.x, first, kL, is_watertight<kKnown>(task));
         const auto plane = [&](Output output) SIMDBEZIER_INLINE_LAMBDA {
           return task.out[output_index(output)].component[c] + at + first;
         };

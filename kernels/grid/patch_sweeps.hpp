@@ -40,6 +40,19 @@ SIMDBEZIER_PART bool is_watertight(const GridTask<T>& task) {
          (kKnown != Known::open && task.watertight);
 }
 
+/// The same for a piece: constants for the compiler.
+template <Known kKnown, typename Piece>
+SIMDBEZIER_PART void assume_rows(Piece& piece) {
+  if constexpr (kKnown == Known::open) {
+    piece.lead = piece.trail = false;
+  }
+  if constexpr (kKnown == Known::closed) {
+    piece.lead = piece.mirrored = piece.trail = true;
+    piece.lead_kind = RowKind::edge_v0;
+    piece.trail_kind = RowKind::edge_v1;
+  }
+}
+
 /// Makes a task of the single column behind a tile, whose positions and normals go to a buffer.
 template <typename Piece, typename T>
 SIMDBEZIER_PART void put_into_buffer(GridTask<T>& column_task, const Piece& piece,
@@ -183,16 +196,9 @@ SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& __restrict shared_task,
                                   const Piece& shared_piece, std::size_t first_column,
                                   std::size_t columns, std::size_t patch, std::size_t last_patch) {
   Piece piece = shared_piece;
-  if constexpr (kKnown == Known::open) {
-    piece.lead = piece.trail = false; // a constant for the compiler
-  }
-  if constexpr (kKnown == Known::closed) { // likewise
-    piece.lead = piece.mirrored = piece.trail = true;
-    piece.lead_kind = RowKind::edge_v0;
-    piece.trail_kind = RowKind::edge_v1;
-  }
+  assume_rows<kKnown>(piece);
   if constexpr (kKnown == Known::open || kKnown == Known::nothing) {
-    piece.by_lines = true; // likewise: no pairs of rows that share lines, to save code
+    piece.by_lines = true; // a constant as well: no pairs of rows that share lines, to save code
   }
   const SomeTile tile(shared_task.x, first_column, columns, is_watertight<kKnown>(shared_task));
   if constexpr (kOutputs == detail::kPositionNormal || kOutputs == detail::kAnyOutputs) {

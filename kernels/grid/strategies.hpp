@@ -219,6 +219,10 @@ struct Bands {
   }
 };
 
+/// Whether rows from edge to edge have sweeps of their own.
+template <detail::OutputSet kOutputs>
+constexpr bool kKnowsRows = kUsual<kOutputs>&& kSimd128;
+
 /// All tiles of one component of large patches before those of the next one. Plain stores get to
 /// memory faster if lines of all planes come at once.
 template <detail::OutputSet kOutputs, typename T>
@@ -234,7 +238,12 @@ struct Components {
   }
   static SIMDBEZIER_PART void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
                                     std::size_t patch, std::size_t end) {
-    sweep_by_components<kOutputs>(task, piece, patch, end);
+    if constexpr (kKnowsRows<kOutputs>) {
+      if (task.watertight && piece.is_closed()) {
+        return sweep_by_components<kOutputs, Known::closed>(task, piece, patch, end);
+      }
+    }
+    sweep_by_components<kOutputs, Known::no_origins>(task, piece, patch, end);
   }
 };
 
@@ -257,10 +266,6 @@ struct AcrossLines {
     });
   }
 };
-
-/// Whether there are tiles of their own for rows from edge to edge.
-template <detail::OutputSet kOutputs>
-constexpr bool kKnowsRows = kUsual<kOutputs>&& kSimd128;
 
 /// One or two registers of columns after the other.
 template <detail::OutputSet kOutputs, typename T>
