@@ -36,9 +36,9 @@ struct RateOptions {
   double normal_degrees = kUnlimited;
   std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
   /// For views and models that move: on entry, CertifiedRates contain the rates of the frame
-  /// before, or 0. A patch keeps them if they are within its tolerance and make at most `keep`
-  /// times as many cells as would be chosen, so that rates change seldom. Below 1, or nan: no rates
-  /// are read or kept. plan_mesh() ignores this member.
+  /// before, or 0. A patch keeps them if they are within its tolerance and make as many cells as
+  /// would be chosen, or up to `keep` times as many, so that rates change seldom. Below 1, or nan:
+  /// no rates are read or kept. plan_mesh() ignores this member.
   double keep = 0;
 };
 

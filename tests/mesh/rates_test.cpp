@@ -189,6 +189,30 @@ TEST(Rates, of_the_frame_before_are_kept_while_they_suffice) {
   EXPECT_LT(3 * changes[1], changes[0]);
 }
 
+/// Between opposite sides that are points there are two cells at least, whatever would hold.
+TEST(Rates, are_kept_that_were_raised_to_separate_vertices) {
+  TestPatch lune = random_patch(0);
+  for (int j = 0; j <= 3; ++j) {
+    for (int i = 0; i <= 3; ++i) {
+      const double width = j % 3 == 0 ? 0 : 2;
+      const Point p = {width * (i - 1.5), 1.0 * j, 1.0 * j * (3 - j)};
+      std::copy_n(p.begin(), 3, lune.values.begin() + 3 * (4 * j + i));
+    }
+  }
+  const Topology topology = topology_of(lune);
+  const ControlNets<double> nets = lune.nets();
+  Choice kept;
+  RateOptions options;
+  options.keep = 1.5;
+  for (const double tolerance : {1e-3, 1.2e-3}) {
+    const Choice before = kept;
+    options.tolerance = tolerance;
+    ASSERT_EQ(choose_rates(nets, topology, options, kept.out()).status, Status::ok);
+    EXPECT_EQ(kept.nu[0], 2U);
+    EXPECT_TRUE(tolerance == 1e-3 || kept.nv == before.nv) << kept.nv[0] << ", " << before.nv[0];
+  }
+}
+
 TEST(Rates, the_smaller_tolerance_counts) {
   const TestPatch patch = random_patch(0);
   const Topology topology = topology_of(patch);

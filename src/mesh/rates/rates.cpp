@@ -104,19 +104,22 @@ Report choose_rates(std::span<const ControlNets<S>> nets, const Topology& topolo
   detail::RateCall<S> call(nets, topology, how, {run.threads, isa}, out);
   const std::vector<detail::CellCounts> before =
       options.keep >= 1 ? call.rates() : std::vector<detail::CellCounts>();
-  Report report = call.choose();
-  if (report && !before.empty()) {
-    report = call.keep(before);
-  }
   // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
-  for (bool changed = true; report && changed;) {
-    const std::vector<detail::CellCounts> certified = call.rates();
-    std::size_t raised = 0;
-    report.status = separate_vertices(topology, out.cells_u, out.cells_v, raised);
-    changed = false;
-    if (report && raised > 0) {
-      report = call.settle(certified, changed);
+  const auto separate = [&](Report report) {
+    for (bool changed = true; report && changed;) {
+      const std::vector<detail::CellCounts> certified = call.rates();
+      std::size_t raised = 0;
+      report.status = separate_vertices(topology, out.cells_u, out.cells_v, raised);
+      changed = false;
+      if (report && raised > 0) {
+        report = call.settle(certified, changed);
+      }
     }
+    return report;
+  };
+  Report report = separate(call.choose());
+  if (report && !before.empty()) {
+    report = separate(call.keep(before));
   }
   for (std::size_t patch = 0; report && patch < out.cells_u.size(); ++patch) {
     if (std::max(out.cells_u[patch], out.cells_v[patch]) > options.most_segments) {
