@@ -154,7 +154,7 @@ template <typename S>
 /// one vertex: equal strides, no common byte.
 struct FormattedOutputs {
   FormattedOutput position;   ///< float32, half, unorm16, snorm16
-  FormattedOutput normal;     ///< float32, octahedral16, octahedral8; zero ones become +z
+  FormattedOutput normal;     ///< float32; octahedral16, octahedral8: zero ones become +z
   FormattedOutput parameters; ///< float32, half, unorm16
   QuantisationBox box;        ///< the box of positions; what lies outside of it moves to its border
 };
