@@ -15,8 +15,7 @@ simdbezier_add_sources(calls O3 counted_grids.cpp evaluate_curve_grid.cpp evalua
                        piece_evaluator.cpp samples.cpp)
 simdbezier_add_sources(calls O2 evaluate_derivatives.cpp evaluate_grid.cpp evaluate_patch_grids.cpp
                        evaluate_tiles.cpp)
-simdbezier_add_sources(choice O3 clock.cpp destination.cpp destined_call.cpp line_costs.cpp
-                       strategies.cpp width_choice.cpp)
+simdbezier_add_sources(choice O3 clock.cpp line_costs.cpp measured_call.cpp strategies.cpp)
 simdbezier_add_sources(nets O3 adjacency.cpp bases.cpp bounds.cpp edge_rings.cpp iso_points.cpp
                        linear_maps.cpp net_call.cpp net_operations.cpp net_places.cpp
                        patch_keys.cpp)

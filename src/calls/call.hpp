@@ -4,9 +4,8 @@
 //   Status check()          everything that a caller can get wrong
 //   bool empty()            nothing is to be done, so that there may not even be a set
 //   auto plan()             the work: which kernels, which pieces, how outputs are delivered;
-//                           plan(Way) where that is a choice (choice/destined_call.hpp), and
-//                           plan_narrower() where two instruction sets are
-//                           (choice/width_choice.hpp)
+//                           plan(Way) where that is a choice, and plan_narrower() where two
+//                           instruction sets are (choice/measured_call.hpp)
 //
 // and the work's
 //   std::size_t units()           what threads share
@@ -28,7 +27,8 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/patch_set.hpp>
 
-#include "src/choice/destined_call.hpp"
+#include "src/calls/grid_plan.hpp"
+#include "src/choice/measured_call.hpp"
 #include "src/output/output_list.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
@@ -226,6 +226,43 @@ protected:
 
   GivenCall in_;
   Request<T> request_;
+};
+
+/// The call on one grid for all patches or curves. Work: made of what is given, what is resolved,
+/// the plan of the grid and a way to write.
+template <CallName kName, typename T, template <typename> typename Set, typename Where,
+          typename Work>
+class CommonGridCall : public OutputCall<T, Set, Where> {
+public:
+  using OutputCall<T, Set, Where>::OutputCall;
+
+  Status check() noexcept {
+    const Grid<T>& grid = as_grid(this->in_.where);
+    std::size_t samples = 0;
+    if (!multiply_samples(grid.nu, grid.nv, this->request_.count, samples)) {
+      return Status::size_overflow;
+    }
+    const MemoryRange inputs[] = {{grid.u, grid.nu * sizeof(T)}, {grid.v, grid.nv * sizeof(T)}};
+    const bool uniform = grid.u == nullptr && grid.v == nullptr;
+    const Status usable = this->check_given(samples, std::span(inputs, uniform ? 0 : 2));
+    return usable ? plan_.build(grid) : usable;
+  }
+  [[nodiscard]] Work plan(Way way) const noexcept {
+    return {this->in_, this->request_, plan_, way};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(this->in_.out, samples());
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_call(kName, this->in_, this->request_).add(plan_.nu()).add(plan_.nv());
+  }
+
+protected:
+  [[nodiscard]] std::size_t samples() const noexcept {
+    return plan_.nu() * plan_.nv() * this->request_.count;
+  }
+
+  GridPlan<T> plan_;
 };
 
 } // namespace simdbezier::detail

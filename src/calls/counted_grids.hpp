@@ -107,7 +107,7 @@ public:
     GridPlan<T>& plan =
         GridPlan<T>::fits_inline(nu, nv) ? plan_[(nu * 5 + nv) % kPlans] : large_plan_;
     if (plan.nu() != nu || plan.nv() != nv) {
-      const Grid<T> grid = nv == 1 ? one_row(CurveGrid<T>::uniform(nu)) : Grid<T>::uniform(nu, nv);
+      const Grid<T> grid = nv == 1 ? as_grid(CurveGrid<T>::uniform(nu)) : Grid<T>::uniform(nu, nv);
       [[maybe_unused]] const Status built = plan.build(grid, memory_);
     }
     return plan;

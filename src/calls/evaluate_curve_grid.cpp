@@ -43,19 +43,20 @@ bool pays_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
 template <typename T>
 class CurveGridWork {
 public:
-  CurveGridWork(const CurveStorage<T>& curves, const Request<T>& request, const GridPlan<T>& plan,
-                const OutputList<T>& out, Way way) noexcept
+  CurveGridWork(const Given<T, CurveSet<T>, CurveGrid<T>>& in, const Request<T>& request,
+                const GridPlan<T>& plan, Way way) noexcept
       : first_curve_(request.first), curves_(request.count), plan_(plan),
-        outputs_(plan_outputs(out, way)), kernels_{curves, *request.table, request.components.first,
-                                                   0} {
+        outputs_(plan_outputs(in.out, way)), kernels_{*in.set.storage(), *request.table,
+                                                      request.components.first, 0} {
+    const OutputList<T>& out = in.out;
     const std::size_t n = plan.nu();
     const bool one_pass = out.holds(CurveOutput::position) && !out.holds(CurveOutput::d1) &&
                           !out.holds(CurveOutput::d2) && !out.wants_curvature();
     outputs_.put_directly({.row = one_pass ? n : 0,
                            .lanes = kernels_.table.lanes,
                            .streamed = kernels_.table.lanes * sizeof(T) == 64});
-    kernels_.rows = can_go_in_rows(curves.shape, out, kernels_.table) &&
-                    pays_in_rows(curves.shape, outputs_, kernels_.table, n);
+    kernels_.rows = can_go_in_rows(kernels_.curves.shape, out, kernels_.table) &&
+                    pays_in_rows(kernels_.curves.shape, outputs_, kernels_.table, n);
     if (kernels_.rows) {
       outputs_.write_directly();
     }
@@ -102,35 +103,8 @@ private:
 };
 
 template <typename T>
-class CurveGridCall : public OutputCall<T, CurveSet, CurveGrid<T>> {
-public:
-  using OutputCall<T, CurveSet, CurveGrid<T>>::OutputCall;
-
-  Status check() noexcept {
-    std::size_t samples = 0;
-    if (!multiply_samples(in_.where.n, 1, request_.count, samples)) {
-      return Status::size_overflow;
-    }
-    const MemoryRange inputs[] = {{in_.where.t, in_.where.n * sizeof(T)}};
-    const Status usable = this->check_given(samples, inputs);
-    return usable ? plan_.build(one_row(in_.where)) : usable;
-  }
-  [[nodiscard]] CurveGridWork<T> plan(Way way) const noexcept {
-    return {*in_.set.storage(), request_, plan_, in_.out, way};
-  }
-  [[nodiscard]] std::size_t written() const noexcept {
-    return written_bytes(in_.out, plan_.nu() * request_.count);
-  }
-  [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_call(CallName::curve_grid, in_, request_).add(plan_.nu());
-  }
-
-private:
-  using OutputCall<T, CurveSet, CurveGrid<T>>::in_;
-  using OutputCall<T, CurveSet, CurveGrid<T>>::request_;
-
-  GridPlan<T> plan_;
-};
+using CurveGridCall =
+    CommonGridCall<CallName::curve_grid, T, CurveSet, CurveGrid<T>, CurveGridWork<T>>;
 
 } // namespace
 } // namespace detail

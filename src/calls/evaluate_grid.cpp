@@ -1,6 +1,5 @@
 // The grid call: work cut into (patch, strip of rows).
 #include <algorithm>
-#include <span>
 
 #include <simdbezier/evaluate.hpp>
 
@@ -15,11 +14,11 @@ namespace {
 template <typename T>
 class GridWork {
 public:
-  GridWork(const SetStorage<T>& set, const Request<T>& request, const GridPlan<T>& plan,
-           const OutputList<T>& out, const Options& options, Way way) noexcept
-      : kernels_(set, request, out, options), first_patch_(request.first), patches_(request.count),
-        plan_(plan), outputs_(out, way) {
-    kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), way);
+  GridWork(const Given<T, PatchSet<T>, Grid<T>>& in, const Request<T>& request,
+           const GridPlan<T>& plan, Way way) noexcept
+      : kernels_(*in.set.storage(), request, in.out, in.options), first_patch_(request.first),
+        patches_(request.count), plan_(plan), outputs_(in.out, way) {
+    kernels_.expect_output(written_bytes(in.out, plan.nu() * plan.nv() * request.count), way);
     if (outputs_.staged()) {
       outputs_.put_directly(kernels_.direct_rows(plan));
     }
@@ -105,27 +104,17 @@ private:
 };
 
 template <typename T>
-class GridCall : public OutputCall<T, PatchSet, Grid<T>> {
-public:
-  using OutputCall<T, PatchSet, Grid<T>>::OutputCall;
+class GridCall : public CommonGridCall<CallName::grid, T, PatchSet, Grid<T>, GridWork<T>> {
+  using Base = CommonGridCall<CallName::grid, T, PatchSet, Grid<T>, GridWork<T>>;
+  using Base::in_;
+  using Base::plan_;
+  using Base::request_;
 
-  Status check() noexcept {
-    std::size_t samples = 0;
-    if (!multiply_samples(in_.where.nu, in_.where.nv, request_.count, samples)) {
-      return Status::size_overflow;
-    }
-    const MemoryRange inputs[] = {{in_.where.u, in_.where.nu * sizeof(T)},
-                                  {in_.where.v, in_.where.nv * sizeof(T)}};
-    const bool uniform = in_.where.u == nullptr && in_.where.v == nullptr;
-    const Status usable = this->check_given(samples, std::span(inputs, uniform ? 0 : 2));
-    return usable ? plan_.build(in_.where) : usable;
-  }
-  [[nodiscard]] GridWork<T> plan(Way way) const noexcept {
-    return {*in_.set.storage(), request_, plan_, in_.out, in_.options, way};
-  }
+public:
+  using Base::Base;
+
   [[nodiscard]] bool may_narrow() const noexcept {
-    return narrower_choice(in_.options.isa) != Isa::automatic &&
-           plan_.nu() * plan_.nv() * request_.count >= kLeastMeasured;
+    return narrower_choice(in_.options.isa) != Isa::automatic && this->samples() >= kLeastMeasured;
   }
   [[nodiscard]] CallKind width_kind() const noexcept {
     return kind_of_call(CallName::grid, in_, request_, true).add(plan_.nu()).add(plan_.nv());
@@ -133,20 +122,8 @@ public:
   [[nodiscard]] GridWork<T> plan_narrower() const noexcept {
     Request<T> request = request_;
     request.table = &kernel_table<T>(narrower_choice(in_.options.isa));
-    return {*in_.set.storage(), request, plan_, in_.out, in_.options, Way::cache};
+    return {in_, request, plan_, Way::cache};
   }
-  [[nodiscard]] std::size_t written() const noexcept {
-    return written_bytes(in_.out, plan_.nu() * plan_.nv() * request_.count);
-  }
-  [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_call(CallName::grid, in_, request_).add(plan_.nu()).add(plan_.nv());
-  }
-
-private:
-  using OutputCall<T, PatchSet, Grid<T>>::in_;
-  using OutputCall<T, PatchSet, Grid<T>>::request_;
-
-  GridPlan<T> plan_;
 };
 
 } // namespace

@@ -79,9 +79,13 @@ private:
 
 /// Curves as surfaces of one row: what a plan needs of their parameters.
 template <typename T>
-Grid<T> one_row(const CurveGrid<T>& grid) noexcept {
+Grid<T> as_grid(const CurveGrid<T>& grid) noexcept {
   static constexpr T kRow = 0;
   return {grid.n, 1, grid.t, &kRow, grid.parameters, {}};
+}
+template <typename T>
+const Grid<T>& as_grid(const Grid<T>& grid) noexcept {
+  return grid;
 }
 
 /// The half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.

@@ -1,17 +1,11 @@
-// The ways in which large calls write to memory, and what they have found out about them.
+// The ways in which large calls write to memory; src/choice/measured_call.hpp chooses one of them.
 #pragma once
 
 #include <cstdint>
 
 #include <simdbezier/options.hpp>
 
-#include "src/choice/call_notes.hpp"
-
 namespace simdbezier::detail {
-
-/// What SIMDBEZIER_DESTINATION says, "cache" or "memory"; automatic for every other word. It is
-/// read at the first use in the process.
-Destination environment_destination() noexcept;
 
 /// How outputs get to the caller's memory. What is streamed and cannot be written directly fills
 /// staging memory first. A large part of the second-level cache holds many patches, whose kernels
@@ -32,10 +26,5 @@ enum class Way : std::uint8_t {
 constexpr Way way_of_samples(Destination destination) noexcept {
   return destination == Destination::memory ? Way::memory : Way::cache;
 }
-
-using DestinationNotes = CallNotes<Way>;
-
-/// The notes of the process.
-DestinationNotes& destination_notes() noexcept;
 
 } // namespace simdbezier::detail

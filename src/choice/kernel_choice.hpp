@@ -8,8 +8,8 @@
 
 #include "src/calls/call.hpp"
 #include "src/calls/grid_plan.hpp"
-#include "src/choice/destined_call.hpp"
 #include "src/choice/line_costs.hpp"
+#include "src/choice/measured_call.hpp"
 #include "src/choice/row_strips.hpp"
 #include "src/choice/strategies.hpp"
 #include "src/output/output_plan.hpp"

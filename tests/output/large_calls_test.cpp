@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/choice/measured_blocks.hpp"
+#include "src/choice/measured_call.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "tests/support/call_options.hpp"
 #include "tests/support/evaluation.hpp"

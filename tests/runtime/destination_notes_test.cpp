@@ -1,6 +1,6 @@
 // What large calls find out: each kind of call is decided once, or measured by one call at a time,
 // and never mixed up with another.
-#include "src/choice/destination.hpp"
+#include "src/choice/measured_call.hpp"
 
 #include <atomic>
 #include <barrier>

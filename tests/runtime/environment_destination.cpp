@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/choice/destined_call.hpp"
+#include "src/choice/measured_call.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 

@@ -1,7 +1,7 @@
 // Which way to memory large calls keep. The calls are made up, and so are their clock, which stands
 // still but for what they add to it, and the machine's caches, which hold what plain stores have
 // left in them until streaming stores have given them time to write it back.
-#include "src/choice/destined_call.hpp"
+#include "src/choice/measured_call.hpp"
 
 #include <algorithm>
 #include <cstdint>

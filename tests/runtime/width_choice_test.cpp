@@ -1,6 +1,6 @@
 // Which of two instruction sets a call keeps. The calls are made up, and so is their clock, which
 // stands still but for what they add to it.
-#include "src/choice/width_choice.hpp"
+#include "src/choice/measured_call.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -17,6 +17,7 @@ std::int64_t now = 0;
 } // namespace width_choice_test
 
 std::int64_t clock_now() noexcept { return width_choice_test::now; }
+std::int64_t page_faults() noexcept { return 0; }
 
 namespace width_choice_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <new>
 
-#include "src/choice/destined_call.hpp"
+#include "src/choice/measured_call.hpp"
 #include "src/mesh/primitives/primitive_call.hpp"
 #include "src/mesh/primitives/triangle_writer.hpp"
 #include "src/runtime/batch.hpp"

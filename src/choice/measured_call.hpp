@@ -1,4 +1,6 @@
-// Calls that can write through the caches or past them. Besides what every call has (call.hpp):
+// Calls that choose by measuring: how their results get to memory, and on which of two instruction
+// sets with equal bits they run. Besides what every call has (call.hpp), calls that can write
+// through the caches or past them have
 //
 //   auto plan(Way)                  the work, for each way of getting the outputs to memory
 //   std::size_t written() const     how many bytes it writes
@@ -13,8 +15,19 @@
 // large calls of each kind therefore evaluate some of their samples in each way that their caller
 // allows, and the fastest one is kept: what two calls agree about, or what the third one says. All
 // give the same bits, so that it does not matter who decides what.
+//
+// Nor is the wider of two instruction sets always the faster one: where a processor splits its
+// registers in two, small grids lose by what fills them. The first call of each kind that is large
+// enough and stays in the caches therefore evaluates a few of its patches on both, in some 20
+// microseconds, and the faster one is kept. Calls that may run on either have
+//
+//   bool may_narrow()       whether there are two, nobody has named one of them, and the call is
+//                           large enough
+//   auto plan_narrower()    the work of plan(Way::cache) on the narrower one
+//   CallKind width_kind()   what calls have in common that the same kernels suit
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,10 +35,10 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
 
-#include "src/choice/any_work.hpp"
+#include "src/choice/call_notes.hpp"
 #include "src/choice/destination.hpp"
-#include "src/choice/width_choice.hpp"
 #include "src/output/output_list.hpp"
+#include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
@@ -36,6 +49,44 @@ concept HasDestination = requires(const Call& call) {
   call.written();
   call.kind();
 };
+
+template <typename Call>
+concept HasWidths = requires(const Call& call) {
+  call.may_narrow();
+  call.plan_narrower();
+  call.width_kind();
+};
+
+/// See src/calls/call.hpp for what a work has.
+struct AnyWork {
+  const void* work;
+  Isa (*run)(const void* work, int worker, std::size_t begin, std::size_t end,
+             unsigned char* scratch);
+  std::size_t units;
+  std::size_t duration;
+  std::size_t grain;
+  std::size_t scratch_bytes;
+
+  template <typename Work>
+  explicit AnyWork(const Work& of, std::size_t units_of_patch = 1) noexcept
+      : work(&of), run([](const void* self, int worker, std::size_t begin, std::size_t end,
+                          unsigned char* scratch) {
+          return static_cast<const Work*>(self)->run(worker, begin, end, scratch);
+        }),
+        units(of.units()), duration(of.duration()), grain(units_of_patch),
+        scratch_bytes(of.scratch_bytes()) {}
+
+  Isa operator()(int worker, std::size_t begin, std::size_t end,
+                 unsigned char* scratch) const noexcept {
+    return run(work, worker, begin, end, scratch);
+  }
+};
+
+/// Runs it in the floating-point environment of make_call(). Returns ok | out_of_memory, before
+/// anything is written.
+[[nodiscard]] inline Status run_work(const AnyWork& work, const RunOptions& options) noexcept {
+  return run_blocks_here(work.units, work.duration, options, work.scratch_bytes, work);
+}
 
 /// Bytes of the vectors of `samples` samples.
 template <typename T>
@@ -78,6 +129,74 @@ template <typename T>
   }
   return kind;
 }
+
+enum class Width : std::uint8_t { undecided, widest, narrower };
+
+/// Samples of calls that are not too small for a clock.
+inline constexpr std::size_t kLeastMeasured = 1024;
+
+/// What calls of the process have found out.
+CallNotes<Width>& width_notes() noexcept;
+
+/// Runs the same work on both instruction sets, of a call that has claimed its kind, and notes
+/// which is faster. Returns ok | out_of_memory, before anything is written.
+[[nodiscard]] Status run_and_choose(const AnyWork& widest, const AnyWork& narrower,
+                                    const CallKind& kind, const Options& options) noexcept;
+
+/// Runs a checked call whose output stays in the caches.
+template <HasWidths Call>
+Status run_in_cache(const Call& call, const Options& options) noexcept {
+  if (call.may_narrow()) {
+    const CallKind kind = call.width_kind();
+    const CallNotes<Width>::Answer answer = width_notes().ask(kind);
+    if (answer.claimed) {
+      const auto widest = call.plan(Way::cache);
+      const auto narrower = call.plan_narrower();
+      return run_and_choose(AnyWork(widest, widest.grain()), AnyWork(narrower, narrower.grain()),
+                            kind, options);
+    }
+    if (answer.choice == Width::narrower) {
+      const auto work = call.plan_narrower();
+      return run_work(AnyWork(work), options);
+    }
+  }
+  const auto work = call.plan(Way::cache);
+  return run_work(AnyWork(work), options);
+}
+
+/// Measured blocks of each way. One half block runs ahead of them.
+inline constexpr std::size_t kMeasurements = 3;
+inline constexpr std::size_t kHalvesOfWay = 1 + 2 * kMeasurements;
+
+/// Returns the half blocks of all ways.
+constexpr std::size_t half_blocks(std::size_t ways) noexcept { return kHalvesOfWay * ways; }
+
+/// Returns at most `items`, and a multiple of 16 if there are as many: so many rows are whole
+/// lines.
+constexpr std::size_t aligned_items(std::size_t items) noexcept {
+  constexpr std::size_t kLine = 16;
+  return items < kLine ? items : items / kLine * kLine;
+}
+
+/// Returns how many patches or samples half a block has, those of all threads together: of a call
+/// with so many items and bytes, for so many ways. 0 where measuring would be more than a quarter
+/// of it.
+inline std::size_t half_block(std::size_t items, std::size_t bytes, std::size_t ways,
+                              int threads) noexcept {
+  // A thread's block is as large as its second-level cache, and up to four times as large where
+  // that is no more of the call than may be measured: the last chunk of a block has nothing to
+  // overlap, and a chunk is up to a third of that cache.
+  constexpr std::size_t kMostOfCall = 4;
+  const auto many = static_cast<std::size_t>(threads);
+  const std::size_t share = bytes / (half_blocks(ways) * kMostOfCall * many);
+  const std::size_t least = std::max<std::size_t>(second_level_cache() / 2, 1);
+  return share < least ? 0 : aligned_items(items / (bytes / std::min(share, 4 * least) + 1)) * many;
+}
+
+using DestinationNotes = CallNotes<Way>;
+
+/// The notes of the process.
+DestinationNotes& destination_notes() noexcept;
 
 /// Where `bytes` bytes go that a caller wants to go to `wanted`: automatic where only a measurement
 /// can tell.
