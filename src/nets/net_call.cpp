@@ -1,8 +1,6 @@
 // See src/nets/net_call.hpp.
 #include "src/nets/net_call.hpp"
 
-#include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -214,20 +212,11 @@ template <typename S>
 Report find_fault(const ControlNets<S>& nets, int threads, bool signed_weights) noexcept {
   const NetView<const S> view = view_of(nets);
   const bool check_weights = nets.weights != Weights::none && !signed_weights;
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::atomic<std::size_t> first{kNone};
-  auto body = [&](int, std::size_t begin, std::size_t end) {
-    for (std::size_t patch = begin * kMaxLanes;
-         patch < std::min(end * kMaxLanes, nets.count) && patch < first; ++patch) {
-      if (doubtful(view, patch, check_weights) && !fault_of(nets, patch, signed_weights)) {
-        lower(first, patch);
-        return;
-      }
-    }
-  };
-  divide_work(lane_groups(nets.count), 10 * kMaxLanes, threads, body);
+  const std::size_t first = first_failure(nets.count, 10, threads, [&](std::size_t patch) {
+    return !doubtful(view, patch, check_weights) || fault_of(nets, patch, signed_weights);
+  });
   Report report;
-  if (first != kNone) {
+  if (first < nets.count) {
     in_default_environment( // weights may be denormal
         [&]() noexcept { report = fault_of(nets, first, signed_weights); });
   }

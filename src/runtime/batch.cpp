@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/runtime/threads.hpp"
-
 namespace simdbezier {
 namespace {
 
@@ -52,9 +50,7 @@ void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept {
   }
   const CallersFpEnvironment environment; // of the threads that are started
   auto run = [&](int worker, int workers) { run_share(units, worker, workers, body); };
-  run_on_threads(threads, {&run, [](void* context, int worker, int workers) {
-                             (*static_cast<decltype(run)*>(context))(worker, workers);
-                           }});
+  run_on_threads(threads, ThreadBody(run));
 }
 
 } // namespace detail

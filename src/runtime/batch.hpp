@@ -10,6 +10,7 @@
 #include <simdbezier/status.hpp>
 
 #include "src/runtime/fp_environment.hpp"
+#include "src/runtime/threads.hpp"
 #include "src/storage/aligned_memory.hpp"
 
 namespace simdbezier::detail {
@@ -36,22 +37,8 @@ int thread_count(int requested, std::size_t units, std::size_t duration) noexcep
 /// long.
 inline constexpr std::size_t kShortestShare = 20'000;
 
-/// A borrowed callable `void(int worker, std::size_t begin, std::size_t end) noexcept`.
-class BlockBody {
-public:
-  template <typename F>
-  explicit BlockBody(F& body) noexcept
-      : context_(&body), call_([](void* context, int worker, std::size_t begin, std::size_t end) {
-          (*static_cast<F*>(context))(worker, begin, end);
-        }) {}
-  void operator()(int worker, std::size_t begin, std::size_t end) const {
-    call_(context_, worker, begin, end);
-  }
-
-private:
-  void* context_;
-  void (*call_)(void*, int, std::size_t, std::size_t);
-};
+/// `void(int worker, std::size_t begin, std::size_t end) noexcept`
+using BlockBody = Borrowed<int, std::size_t, std::size_t>;
 
 /// Calls body once per worker 0..threads-1 with its share of 0..units-1, in the library's
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
@@ -65,6 +52,26 @@ void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept;
 template <typename F>
 void divide_work(std::size_t units, std::size_t nanoseconds, int threads, F& body) noexcept {
   for_blocks(units, thread_count(threads, units, duration_of(units, nanoseconds)), BlockBody(body));
+}
+
+/// The first unit of which holds(unit) is false, tried as divide_work() says; `units` where there
+/// is none. Those behind it may not be tried.
+template <typename F>
+std::size_t first_failure(std::size_t units, std::size_t nanoseconds, int threads,
+                          const F& holds) noexcept {
+  std::atomic<std::size_t> first = units;
+  auto body = [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t unit = begin; unit < end && unit < first; ++unit) {
+      if (!holds(unit)) {
+        std::size_t now = first;
+        while (unit < now && !first.compare_exchange_weak(now, unit)) {
+        }
+        return;
+      }
+    }
+  };
+  divide_work(units, nanoseconds, threads, body);
+  return first;
 }
 
 /// Where share k of n begins, and where share n - 1 ends for k == n: units / n each, the first
@@ -102,20 +109,6 @@ private:
   std::size_t units_;
   std::size_t count_;
 };
-
-/// Lowers a number that several threads lower.
-inline void lower(std::atomic<std::size_t>& least, std::size_t to) noexcept {
-  std::size_t now = least;
-  while (to < now && !least.compare_exchange_weak(now, to)) {
-  }
-}
-
-/// Raises one likewise.
-inline void raise(std::atomic<std::size_t>& most, std::size_t to) noexcept {
-  std::size_t now = most;
-  while (to > now && !most.compare_exchange_weak(now, to)) {
-  }
-}
 
 /// Scratch of a call's threads, each from a cache line of its own.
 class ThreadScratch {

@@ -11,12 +11,24 @@ int default_threads() noexcept;
 /// The most threads that a call is given: more gain nothing, and the system may refuse them.
 int most_threads() noexcept;
 
-/// A borrowed callable `void(int worker, int workers) noexcept`.
-struct ThreadBody {
-  void* context;
-  void (*call)(void*, int, int);
-  void operator()(int worker, int workers) const { call(context, worker, workers); }
+/// A borrowed callable.
+template <typename... Arguments>
+class Borrowed {
+public:
+  template <typename F>
+  explicit Borrowed(F& body) noexcept
+      : context_(&body), call_([](void* context, Arguments... arguments) {
+          (*static_cast<F*>(context))(arguments...);
+        }) {}
+  void operator()(Arguments... arguments) const { call_(context_, arguments...); }
+
+private:
+  void* context_;
+  void (*call_)(void*, Arguments...);
 };
+
+/// `void(int worker, int workers) noexcept`
+using ThreadBody = Borrowed<int, int>;
 
 /// Calls body(0, n) … body(n - 1, n), each once, on threads of their own as far as the system
 /// grants them. n is `threads`, or fewer where OpenMP's runtime decides so. threads: 2 or more.

@@ -45,6 +45,16 @@ TEST(SIMDBEZIER_BACK_END, every_unit_is_done_once) {
   }
 }
 
+TEST(SIMDBEZIER_BACK_END, the_first_failure_is_the_same_on_any_number_of_threads) {
+  constexpr std::size_t kUnits = 1000;
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t first : {0U, 1U, 499U, 500U, 999U, 1000U}) {
+      const auto holds = [first](std::size_t k) { return k < first || (k - first) % 3 != 0; };
+      EXPECT_EQ(first_failure(kUnits, kShortestShare, threads, holds), first) << threads;
+    }
+  }
+}
+
 TEST(SIMDBEZIER_BACK_END, one_thread_is_the_callers) {
   const std::thread::id caller = std::this_thread::get_id();
   auto body = [&](int, std::size_t, std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); };
@@ -87,9 +97,7 @@ TEST(SIMDBEZIER_BACK_END, threads_are_started_in_the_callers_environment) {
     auto body = [&](int worker, int) {
       EXPECT_EQ(tests::control_register(), callers) << test.name << ", thread " << worker;
     };
-    run_on_threads(kThreads, {&body, [](void* context, int worker, int workers) {
-                                (*static_cast<decltype(body)*>(context))(worker, workers);
-                              }});
+    run_on_threads(kThreads, ThreadBody(body));
   };
   for (const tests::EnvironmentCase& test : tests::kEnvironments) {
     for (const bool here : {true, false}) {

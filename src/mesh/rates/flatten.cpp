@@ -2,7 +2,6 @@
 #include <simdbezier/flatten.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -289,17 +288,9 @@ Report choose_polylines(const ControlCurves<S>& curves, const FlattenOptions& op
   const auto choose = [&](std::size_t curve) {
     return detail::choose_points(curves, options, curve, points, deviation);
   };
-  std::atomic<std::size_t> fault = curves.count; // the first one
-  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
-    for (std::size_t curve = begin; curve < end; ++curve) {
-      if (!choose(curve)) {
-        detail::lower(fault, curve);
-        return;
-      }
-    }
-  };
-  detail::divide_work(curves.count, 150, run.threads, body);
-  if (const std::size_t curve = fault; curve < curves.count) {
+  const std::size_t curve = detail::first_failure(
+      curves.count, 150, run.threads, [&](std::size_t k) { return choose(k) == Status::ok; });
+  if (curve < curves.count) {
     const detail::DefaultFpEnvironment environment;
     return {choose(curve), curve};
   }

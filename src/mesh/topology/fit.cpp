@@ -2,7 +2,6 @@
 #include "src/mesh/topology/fit.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include <simdbezier/topology.hpp>
 
@@ -81,17 +80,8 @@ template <typename S>
 std::size_t first_misfit(const TopologyData& topology, std::span<const ControlNets<S>> nets,
                          int threads) {
   const TopologyFit<S> fit(topology, nets);
-  std::atomic<std::size_t> lowest = topology.patches();
-  auto body = [&](int, std::size_t begin, std::size_t end) {
-    for (std::size_t patch = begin; patch < end; ++patch) {
-      if (!fit.holds(patch)) {
-        lower(lowest, patch);
-        return;
-      }
-    }
-  };
-  divide_work(topology.patches(), 40, threads, body);
-  return lowest;
+  return first_failure(topology.patches(), 40, threads,
+                       [&](std::size_t patch) { return fit.holds(patch); });
 }
 
 SIMDBEZIER_OF_BOTH_TYPES(first_misfit);
