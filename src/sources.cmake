@@ -16,7 +16,7 @@ simdbezier_add_sources(calls O3 counted_grids.cpp evaluate_curve_grid.cpp evalua
 simdbezier_add_sources(calls O2 evaluate_derivatives.cpp evaluate_grid.cpp evaluate_patch_grids.cpp
                        evaluate_tiles.cpp)
 simdbezier_add_sources(choice O3 clock.cpp line_costs.cpp measured_call.cpp strategies.cpp)
-simdbezier_add_sources(nets O3 adjacency.cpp bases.cpp bounds.cpp edge_rings.cpp iso_points.cpp
+simdbezier_add_sources(nets O3 adjacency.cpp bounds.cpp edge_rings.cpp iso_points.cpp
                        linear_maps.cpp net_call.cpp net_operations.cpp net_places.cpp
                        patch_keys.cpp)
 simdbezier_add_sources(splines O3 evaluate_spline_samples.cpp evaluate_splines.cpp

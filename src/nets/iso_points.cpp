@@ -12,9 +12,9 @@ template <typename S>
 void read_rows(const IsoTask<S>& task, const S* net, double* rows) {
   const bool homogenise = task.nets.weights == Weights::cartesian;
   const auto weight_at = static_cast<std::ptrdiff_t>(task.nets.components);
-  for (int i = 0; i <= task.degree; ++i) {
-    for (int j = 0; j <= task.curve_degree; ++j) {
-      const S* const point = net + i * task.across + j * task.along;
+  for (int i = 0; i <= task.nets.degree_u; ++i) {
+    for (int j = 0; j <= task.nets.degree_v; ++j) {
+      const S* const point = net + i * task.nets.point_stride + j * task.nets.row_stride;
       for (std::size_t c = 0; c < task.channels; ++c) {
         const auto at = static_cast<std::ptrdiff_t>(c);
         *rows = static_cast<double>(point[at * task.nets.component_stride]);
@@ -33,7 +33,7 @@ void interpolate(const IsoTask<S>& task, std::size_t patch, double* points) {
   double rows[kMostOrder * kMostOrder * kMostChannels];
   read_rows(task, task.net(patch), rows);
   const double s = 1 - task.t;
-  for (int last = task.degree; last > 0; --last) {
+  for (int last = task.nets.degree_u; last > 0; --last) {
     // All rows of a level lie side by side: one long loop.
     const std::size_t count = static_cast<std::size_t>(last) * row;
     for (std::size_t k = 0; k < count; ++k) {
@@ -51,10 +51,12 @@ void interpolate(const IsoTask<S>& task, std::size_t patch, double* points) {
 /// The curve at 0 or 1 is a boundary, whose points are copied, since products with weights round.
 template <typename S>
 void copy_boundary(const IsoTask<S>& task, std::size_t patch, double* points) {
-  const S* const first = task.net(patch) + (task.t == 1 ? task.degree * task.across : 0);
-  for (int j = 0; j <= task.curve_degree; ++j) {
+  const S* const first =
+      task.net(patch) + (task.t == 1 ? task.nets.degree_u * task.nets.point_stride : 0);
+  for (int j = 0; j <= task.nets.degree_v; ++j) {
     for (std::size_t c = 0; c < task.channels; ++c) {
-      const auto at = j * task.along + static_cast<std::ptrdiff_t>(c) * task.nets.component_stride;
+      const auto at =
+          j * task.nets.row_stride + static_cast<std::ptrdiff_t>(c) * task.nets.component_stride;
       *points++ = static_cast<double>(first[at]) + 0.0;
     }
   }
@@ -66,13 +68,14 @@ void copy_boundary(const IsoTask<S>& task, std::size_t patch, double* points) {
 template <typename S>
 void restore_points(const IsoTask<S>& task, std::size_t patch, double* points) {
   const bool boundary = task.t == 0 || task.t == 1;
-  const std::size_t across = boundary ? 1 : static_cast<std::size_t>(task.degree) + 1;
-  const std::size_t along = static_cast<std::size_t>(task.curve_degree) + 1;
-  const S* const first = task.net(patch) + (task.t == 1 ? task.degree * task.across : 0);
+  const std::size_t across = boundary ? 1 : static_cast<std::size_t>(task.nets.degree_u) + 1;
+  const std::size_t along = static_cast<std::size_t>(task.nets.degree_v) + 1;
+  const S* const first =
+      task.net(patch) + (task.t == 1 ? task.nets.degree_u * task.nets.point_stride : 0);
   const auto restore = [&](std::size_t begin, std::size_t count) {
     const auto point = [&](std::size_t k) {
-      return first + static_cast<std::ptrdiff_t>(begin + k / across) * task.along +
-             static_cast<std::ptrdiff_t>(k % across) * task.across;
+      return first + static_cast<std::ptrdiff_t>(begin + k / across) * task.nets.row_stride +
+             static_cast<std::ptrdiff_t>(k % across) * task.nets.point_stride;
     };
     double one[kMostChannels];
     if (!are_one_point<S>(point, count * across, task.channels - 1, task.nets.component_stride,

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <simdbezier/control_nets.hpp>
+#include <simdbezier/nets.hpp>
 
 #include "src/storage/patch_storage.hpp"
 
@@ -15,23 +15,16 @@ namespace simdbezier::detail {
 
 enum class Across : std::uint8_t { u, v };
 
-/// The nets, seen from the direction that is interpolated away.
+/// The nets, turned so that their direction u is interpolated away, and v runs along curves.
 template <typename S>
 struct IsoTask {
   ControlNets<S> nets;
-  int degree;            ///< across
-  int curve_degree;      ///< along
-  std::ptrdiff_t across; ///< stride from point to point
-  std::ptrdiff_t along;
   std::size_t channels;
   double t;
   Weights form; ///< of the results: that of the nets, or cartesian
 
   IsoTask(const ControlNets<S>& all, Across direction, double parameter)
-      : nets(all), degree(direction == Across::u ? all.degree_u : all.degree_v),
-        curve_degree(direction == Across::u ? all.degree_v : all.degree_u),
-        across(direction == Across::u ? all.point_stride : all.row_stride),
-        along(direction == Across::u ? all.row_stride : all.point_stride),
+      : nets(direction == Across::u ? all : transposed(all)),
         channels(static_cast<std::size_t>(all.components) + (all.weights == Weights::none ? 0 : 1)),
         t(parameter), form(all.weights) {}
   /// The nets that a bucket keeps, S as they were given.
@@ -43,7 +36,7 @@ struct IsoTask {
                 direction, parameter) {}
 
   [[nodiscard]] std::size_t curve_values() const {
-    return (static_cast<std::size_t>(curve_degree) + 1) * channels;
+    return (static_cast<std::size_t>(nets.degree_v) + 1) * channels;
   }
   [[nodiscard]] const S* net(std::size_t patch) const {
     return nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;

@@ -74,12 +74,14 @@ Support support_between(int degree, const UnitParameter<T>& from,
 
 template <typename T>
 Report run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const LinearMap& u,
-               const LinearMap& v, const RunOptions& options) noexcept {
+               const LinearMap& v, const RunOptions& options,
+               bool signed_weights = false) noexcept {
   const MapTask<T> task{view_of(nets), view_of(out), &u, &v, support_of(u), support_of(v)};
   NetShape most = shape_of(nets);
   most.degree_u = std::max(most.degree_u, out.degree_u);
   most.degree_v = std::max(most.degree_v, out.degree_v);
-  return compute_nets(nets, &NetOperationTable<T>::map, task, 3 * most.control_values(), options);
+  return compute_nets(nets, &NetOperationTable<T>::map, task, 3 * most.control_values(), options,
+                      signed_weights);
 }
 
 /// Copies values, without any arithmetic, in the order of `nets`, a view of `original` in another
@@ -152,6 +154,35 @@ Report run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int 
     return order == 0 ? identity_map(degree) : hodograph_map(degree);
   };
   return run_map<T>(nets, out, map(nets.degree_u, order_u), map(nets.degree_v, order_v), options);
+}
+
+bool is_power(Basis basis) noexcept {
+  return basis == Basis::power || basis == Basis::centred_power;
+}
+
+/// ok | bad_degree | bad_weight, for nets that can be read.
+template <typename T>
+Status check_basis(Basis basis, const ControlNets<T>& nets, bool to_bezier) noexcept {
+  if (!is_power(basis) && (nets.degree_u != 3 || nets.degree_v != 3)) {
+    return Status::bad_degree;
+  }
+  const bool any_weights = basis == Basis::b_spline && to_bezier;
+  const bool allowed = nets.weights == Weights::none || any_weights ||
+                       (is_power(basis) && nets.weights == Weights::homogeneous);
+  return allowed ? Status::ok : Status::bad_weight;
+}
+
+template <typename T>
+Report change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Basis basis,
+                    bool to_bezier, const RunOptions& options) noexcept {
+  if (const Status status = check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v); !status) {
+    return {status};
+  }
+  if (const Status fits = check_basis(basis, nets, to_bezier); !fits) {
+    return argument_fault(fits);
+  }
+  return run_map<T>(nets, out, basis_map(basis, nets.degree_u, to_bezier),
+                    basis_map(basis, nets.degree_v, to_bezier), options, is_power(basis));
 }
 
 } // namespace
@@ -270,6 +301,20 @@ Report transpose(const ControlNets<T>& nets, const std::type_identity_t<MutableN
   return detail::run_view<T>(nets, out, nets.degree_v, nets.degree_u, transposed<T>, options);
 }
 
+template <typename T>
+Report to_bezier(Basis basis, const ControlNets<T>& nets,
+                 const std::type_identity_t<MutableNets<T>>& out,
+                 const RunOptions& options) noexcept {
+  return detail::change_basis<T>(nets, out, basis, true, options);
+}
+
+template <typename T>
+Report from_bezier(Basis basis, const ControlNets<T>& nets,
+                   const std::type_identity_t<MutableNets<T>>& out,
+                   const RunOptions& options) noexcept {
+  return detail::change_basis<T>(nets, out, basis, false, options);
+}
+
 SIMDBEZIER_EXPORT_BOTH_TYPES(split_u);
 SIMDBEZIER_EXPORT_BOTH_TYPES(split_v);
 SIMDBEZIER_EXPORT_BOTH_TYPES(split);
@@ -280,5 +325,7 @@ SIMDBEZIER_EXPORT_BOTH_TYPES(hodograph_v);
 SIMDBEZIER_EXPORT_BOTH_TYPES(reverse_u);
 SIMDBEZIER_EXPORT_BOTH_TYPES(reverse_v);
 SIMDBEZIER_EXPORT_BOTH_TYPES(transpose);
+SIMDBEZIER_EXPORT_BOTH_TYPES(to_bezier);
+SIMDBEZIER_EXPORT_BOTH_TYPES(from_bezier);
 
 } // namespace simdbezier

@@ -36,10 +36,10 @@ void for_patches(std::size_t count, int threads, const F& f) {
 
 /// Nets are read twice, so that nothing is written where one of them is at fault.
 template <typename S>
-Report form_all(const IsoTask<S>& task, double* points, int threads) {
-  const Report checked = find_fault(task.nets, threads);
+Report form_all(const ControlNets<S>& nets, const IsoTask<S>& task, double* points, int threads) {
+  const Report checked = find_fault(nets, threads);
   if (checked) {
-    for_patches(task.nets.count, threads, [&](std::size_t patch) {
+    for_patches(nets.count, threads, [&](std::size_t patch) {
       form_curve(task, patch, points + patch * task.curve_values());
     });
   }
@@ -65,7 +65,7 @@ Report iso_points(const ControlNets<S>& nets, Across direction, double t,
     return {Status::size_overflow};
   }
   const Status usable = check_array(nets, points, nets.count * task.curve_values());
-  return usable ? form_all(task, points.first, options.threads) : Report{usable};
+  return usable ? form_all(nets, task, points.first, options.threads) : Report{usable};
 }
 
 /// Curves like the task's, whose points form(points) writes, as a set.
@@ -83,7 +83,7 @@ Report pack_formed(const IsoTask<S>& task, std::size_t count, const Form& form, 
   if (const Report report = form(points.get()); !report) {
     return report;
   }
-  return pack(ControlCurves<double>::packed(points.get(), count, task.curve_degree,
+  return pack(ControlCurves<double>::packed(points.get(), count, task.nets.degree_v,
                                             task.nets.components, task.form),
               curves, options);
 }
@@ -95,7 +95,7 @@ Report iso_of_nets(const ControlNets<S>& nets, Across direction, double t, Curve
     return report;
   }
   const IsoTask<S> task(nets, direction, t);
-  const auto form = [&](double* points) { return form_all(task, points, options.threads); };
+  const auto form = [&](double* points) { return form_all(nets, task, points, options.threads); };
   return pack_formed(task, nets.count, form, curves, options);
 }
 
