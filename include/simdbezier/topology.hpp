@@ -176,10 +176,10 @@ struct EdgeLink {
 /// Collapsed: all points are one, whatever their weights: Cartesian ones if their coordinates are
 ///            equal, homogeneous ones also if their quotients differ by roundings, 16 u of the
 ///            larger of two in each coordinate (u = 2^-24 or 2^-53).
-/// Returns:   ok | the statuses of views | null_output | output_too_small | overlapping_outputs |
-///            out_of_memory. Determinism: a function of the input.
+/// Returns:   ok | the statuses of views (also size_overflow: 2^30 patches or more) | null_output |
+///            output_too_small | overlapping_outputs | out_of_memory.
 /// Cost:      by hashing, some 50 ns an edge, for values that are not made to collide. Allocation:
-///            about 30 bytes an edge.
+///            about 30 bytes an edge. Determinism: a function of the input.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> nets,
                                                    Values<EdgeLink> edges,

@@ -11,8 +11,7 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-template <typename Index>
-EdgeLink link_of(const EdgeRings<Index>& rings, std::size_t side) noexcept {
+EdgeLink link_of(const EdgeRings& rings, std::size_t side) noexcept {
   if (rings.is_point(side)) {
     return {EdgeKind::collapsed};
   }
@@ -25,23 +24,18 @@ EdgeLink link_of(const EdgeRings<Index>& rings, std::size_t side) noexcept {
           other / kPatchEdges};
 }
 
-template <typename Index, typename S>
-void link_edges(std::span<const ControlNets<S>> nets, std::span<EdgeLink> links, int threads) {
-  const EdgeRings<Index> rings = find_rings<S, Index>(nets, threads);
-  auto body = [&](int, std::size_t begin, std::size_t end) {
-    for (std::size_t side = begin; side < end; ++side) {
-      links[side] = link_of(rings, side);
-    }
-  };
-  divide_work(links.size(), 5, threads, body);
-}
+constexpr std::size_t kMostPatches = std::size_t{1} << 30; ///< sides have 32 bits
 
 template <typename S>
 Status check(std::span<const ControlNets<S>> nets, const Values<EdgeLink>& edges) noexcept {
   if (const Status status = check_views(nets); !status) {
     return status;
   }
-  const std::size_t sides = kPatchEdges * patches_of(nets);
+  const std::size_t patches = patches_of(nets);
+  if (patches >= kMostPatches) {
+    return Status::size_overflow;
+  }
+  const std::size_t sides = kPatchEdges * patches;
   if (sides > edges.capacity) {
     return Status::output_too_small;
   }
@@ -68,11 +62,13 @@ Status find_adjacency(std::span<const ControlNets<S>> nets, Values<EdgeLink> edg
   }
   const detail::DefaultFpEnvironment environment;
   const std::span links(edges.first, kPatchEdges * detail::patches_of(nets));
-  if (links.size() < detail::EdgeRings<std::uint32_t>::kPoint) {
-    detail::link_edges<std::uint32_t>(nets, links, options.threads);
-  } else {
-    detail::link_edges<std::uint64_t>(nets, links, options.threads);
-  }
+  const detail::EdgeRings rings = detail::find_rings<S>(nets, options.threads);
+  auto body = [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t side = begin; side < end; ++side) {
+      links[side] = detail::link_of(rings, side);
+    }
+  };
+  detail::divide_work(links.size(), 5, options.threads, body);
   return Status::ok;
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;

@@ -11,6 +11,7 @@
 #include "src/nets/edge_keys.hpp"
 #include "src/nets/edge_values.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
@@ -21,16 +22,13 @@ constexpr std::size_t kAhead = 32;
 
 /// Open addressing: the latest side of each ring, at a place that the low half of its hash leads
 /// to, with the high half.
-template <typename Index>
 class RingTable {
 public:
   explicit RingTable(std::size_t sides)
       : slots_(std::bit_ceil(sides + sides / 4 + 1)), mask_(slots_.size() - 1) {}
 
   /// To be called first, by the thread that enters sides.
-  void clear() noexcept {
-    std::fill(slots_.begin(), slots_.end(), Slot{0, EdgeRings<Index>::kPoint});
-  }
+  void clear() noexcept { std::fill(slots_.begin(), slots_.end(), Slot{0, EdgeRings::kPoint}); }
   /// How many rings there is room for.
   [[nodiscard]] std::size_t room() const noexcept { return mask_; }
 
@@ -39,27 +37,27 @@ public:
   /// Enters a side, and returns the latest one before with the same hash of which same(side) is
   /// true, or the side itself if there is none.
   template <typename Same>
-  Index enter(std::uint64_t hash, Index side, const Same& same) noexcept {
+  std::uint32_t enter(std::uint64_t hash, std::uint32_t side, const Same& same) noexcept {
     const auto high = static_cast<std::uint32_t>(hash >> 32);
     std::size_t at = hash & mask_;
     for (;; at = (at + 1) & mask_) {
       const Slot& slot = slots_[at];
-      const bool is_free = slot.latest == EdgeRings<Index>::kPoint;
+      const bool is_free = slot.latest == EdgeRings::kPoint;
       const bool is_like = slot.high == high;
       // Taken together, since which of the two it is cannot be predicted.
       if ((is_free | is_like) && (is_free || same(slot.latest))) {
         break;
       }
     }
-    const Index latest = slots_[at].latest;
+    const std::uint32_t latest = slots_[at].latest;
     slots_[at] = {high, side};
-    return latest == EdgeRings<Index>::kPoint ? side : latest;
+    return latest == EdgeRings::kPoint ? side : latest;
   }
 
 private:
   struct Slot {
     std::uint32_t high;
-    Index latest; ///< kPoint: none
+    std::uint32_t latest; ///< kPoint: none
   };
 
   FreshVector<Slot> slots_;
@@ -67,17 +65,16 @@ private:
 };
 
 /// Where the results of hashing go: of every side its hash, and a ring of its own.
-template <typename Index>
 struct HashTarget {
-  EdgeRings<Index>& rings;
+  EdgeRings& rings;
   std::uint64_t* hashes;
 };
 
 /// Hashes the edges of patches [first, last), which are in one view.
-template <typename Keys, typename S, typename Index>
+template <typename Keys, typename S>
 void hash_patches(const AllEdges<S>& edges, std::size_t view, Keys keys, std::size_t first,
-                  std::size_t last, HashTarget<Index> to) noexcept {
-  Index* const next = to.rings.next.data();
+                  std::size_t last, HashTarget to) noexcept {
+  std::uint32_t* const next = to.rings.next.data();
   std::uint8_t* const turned = to.rings.turned.data();
   const bool weighted = edges.form(view, 0).weights != Weights::none;
   for (std::size_t patch = first; patch < last; ++patch) {
@@ -88,7 +85,7 @@ void hash_patches(const AllEdges<S>& edges, std::size_t view, Keys keys, std::si
     for (std::size_t k = 0; k < kPatchEdges; ++k) {
       to.hashes[side + k] = keys.hash(k);
       turned[side + k] = keys.runs_against(k) ? 1 : 0;
-      next[side + k] = static_cast<Index>(side + k);
+      next[side + k] = static_cast<std::uint32_t>(side + k);
       closed |= keys.may_be_closed(k);
     }
     // Different keys at both ends tell the direction, and that the edge is no point; but points
@@ -99,14 +96,14 @@ void hash_patches(const AllEdges<S>& edges, std::size_t view, Keys keys, std::si
         turned[side + k] = edge.runs_against() ? 1 : 0;
       }
       if (edge.collapsed()) {
-        next[side + k] = EdgeRings<Index>::kPoint;
+        next[side + k] = EdgeRings::kPoint;
       }
     }
   }
 }
 
-template <typename S, typename Index>
-void hash_edges(const AllEdges<S>& edges, HashTarget<Index> to, int threads) noexcept {
+template <typename S>
+void hash_edges(const AllEdges<S>& edges, HashTarget to, int threads) noexcept {
   auto body = [&](int, std::size_t begin, std::size_t end) {
     edges.views().for_views(begin, end, [&](const auto& nets, auto view, auto first, auto last) {
       with_keys(nets, [&](const auto& keys) { hash_patches(edges, view, keys, first, last, to); });
@@ -117,11 +114,11 @@ void hash_edges(const AllEdges<S>& edges, HashTarget<Index> to, int threads) noe
 
 /// Links one part of all sides, which equal hashes are in together, so that each part can be linked
 /// by a thread of its own.
-template <typename S, typename Index>
+template <typename S>
 class PartLinker {
 public:
-  PartLinker(const AllEdges<S>& edges, EdgeRings<Index>& rings,
-             std::span<const std::uint64_t> hashes, std::size_t part, std::size_t parts)
+  PartLinker(const AllEdges<S>& edges, EdgeRings& rings, std::span<const std::uint64_t> hashes,
+             std::size_t part, std::size_t parts)
       : edges_(edges), rings_(rings), hashes_(hashes), part_(part), parts_(parts),
         own_(std::min(kPassed, hashes.size()) + kAhead),
         table_(hashes.size() / parts + (parts > 1 ? kUneven : 0)) {}
@@ -150,35 +147,37 @@ private:
   static constexpr std::size_t kUneven = 256;   ///< room for parts that are not all of one size
 
   /// The part's sides of [begin, end), ascending.
-  [[nodiscard]] std::span<const Index> own_sides(std::size_t begin, std::size_t end) noexcept {
+  [[nodiscard]] std::span<const std::uint32_t> own_sides(std::size_t begin,
+                                                         std::size_t end) noexcept {
     std::size_t count = 0;
     if (parts_ == 1) {
       count = end - begin;
       std::iota(own_.begin(), own_.begin() + static_cast<std::ptrdiff_t>(count),
-                static_cast<Index>(begin));
+                static_cast<std::uint32_t>(begin));
     }
     for (std::size_t side = begin; parts_ > 1 && side < end; ++side) {
-      own_[count] = static_cast<Index>(side);
+      own_[count] = static_cast<std::uint32_t>(side);
       count += (hashes_[side] >> 32) * parts_ >> 32 == part_ ? 1 : 0;
     }
     std::fill_n(own_.begin() + static_cast<std::ptrdiff_t>(count), kAhead,
-                static_cast<Index>(begin));
+                static_cast<std::uint32_t>(begin));
     return {own_.data(), count};
   }
 
   /// Links own sides [begin, end), and compares their values afterwards, when these have come into
   /// a cache.
   [[nodiscard]] bool link(std::size_t begin, std::size_t end) noexcept {
-    Index later[kCompared];
+    std::uint32_t later[kCompared];
     EdgeValues<S> earlier[kCompared];
     std::size_t count = 0;
     for (std::size_t k = begin; k < end; ++k) {
       table_.prefetch(hashes_[own_[k + kAhead]]);
-      const Index side = own_[k];
+      const std::uint32_t side = own_[k];
       if (rings_.is_point(side)) {
         continue;
       }
-      const Index latest = table_.enter(hashes_[side], side, [](Index) { return true; });
+      const std::uint32_t latest =
+          table_.enter(hashes_[side], side, [](std::uint32_t) { return true; });
       if (latest != side) {
         rings_.link(latest, side);
         earlier[count] = agreed(latest);
@@ -196,26 +195,27 @@ private:
     return true;
   }
   /// The values of a side in the direction on which its ring agrees.
-  [[nodiscard]] EdgeValues<S> agreed(Index side) const noexcept {
+  [[nodiscard]] EdgeValues<S> agreed(std::uint32_t side) const noexcept {
     return edges_[side].turned(rings_.turned[side] != 0);
   }
 
   const AllEdges<S>& edges_;
-  EdgeRings<Index>& rings_;
+  EdgeRings& rings_;
   std::span<const std::uint64_t> hashes_;
   std::size_t part_;
   std::size_t parts_;
-  FreshVector<Index> own_; ///< those passed last, and some behind them that are fetched in vain
-  RingTable<Index> table_;
+  FreshVector<std::uint32_t>
+      own_; ///< those passed last, and some behind them that are fetched in vain
+  RingTable table_;
   std::size_t count_ = 0; ///< of rings
 };
 
 /// Links sides of equal hashes, as many parts at once as there are threads; see PartLinker::run().
-template <typename S, typename Index>
-bool link_by_hashes(const AllEdges<S>& edges, EdgeRings<Index>& rings,
+template <typename S>
+bool link_by_hashes(const AllEdges<S>& edges, EdgeRings& rings,
                     std::span<const std::uint64_t> hashes, int threads) {
   const Shares parts(hashes.size(), 10, threads);
-  std::vector<PartLinker<S, Index>> linkers;
+  std::vector<PartLinker<S>> linkers;
   for (std::size_t part = 0; part < parts.count(); ++part) {
     linkers.emplace_back(edges, rings, hashes, part, parts.count());
   }
@@ -229,47 +229,44 @@ bool link_by_hashes(const AllEdges<S>& edges, EdgeRings<Index>& rings,
 }
 
 /// Links sides of equal values, also where others have the same hash.
-template <typename S, typename Index>
-void link_by_values(const AllEdges<S>& edges, EdgeRings<Index>& rings,
+template <typename S>
+void link_by_values(const AllEdges<S>& edges, EdgeRings& rings,
                     std::span<const std::uint64_t> hashes) {
-  RingTable<Index> table(hashes.size());
+  RingTable table(hashes.size());
   table.clear();
-  const auto agreed = [&](Index side) { return edges[side].turned(rings.turned[side] != 0); };
+  const auto agreed = [&](std::uint32_t side) {
+    return edges[side].turned(rings.turned[side] != 0);
+  };
   for (std::size_t k = 0; k < hashes.size(); ++k) {
     if (rings.is_point(k)) {
       continue;
     }
-    const auto side = static_cast<Index>(k);
+    const auto side = static_cast<std::uint32_t>(k);
     rings.next[k] = side;
-    const auto same = [&](Index latest) { return agreed(latest) == agreed(side); };
+    const auto same = [&](std::uint32_t latest) { return agreed(latest) == agreed(side); };
     rings.link(table.enter(hashes[k], side, same), side);
   }
 }
 
 } // namespace
 
-template <typename S, typename Index>
-EdgeRings<Index> find_rings(std::span<const ControlNets<S>> nets, int threads) {
+template <typename S>
+EdgeRings find_rings(std::span<const ControlNets<S>> nets, int threads) {
   const AllEdges<S> edges(nets);
   const std::size_t sides = kPatchEdges * edges.views().patches();
-  EdgeRings<Index> rings;
+  EdgeRings rings;
   if (sides > 0) {
     rings.next.resize(sides);
     rings.turned.resize(sides);
     FreshVector<std::uint64_t> hashes(sides);
-    hash_edges<S, Index>(edges, {rings, hashes.data()}, threads);
-    if (!link_by_hashes<S, Index>(edges, rings, hashes, threads)) {
-      link_by_values<S, Index>(edges, rings, hashes);
+    hash_edges<S>(edges, {rings, hashes.data()}, threads);
+    if (!link_by_hashes<S>(edges, rings, hashes, threads)) {
+      link_by_values<S>(edges, rings, hashes);
     }
   }
   return rings;
 }
 
-#define SIMDBEZIER_EDGE_RINGS(S)                                                                   \
-  template EdgeRings<std::uint32_t> find_rings(std::span<const ControlNets<S>>, int);              \
-  template EdgeRings<std::uint64_t> find_rings(std::span<const ControlNets<S>>, int);
-SIMDBEZIER_EDGE_RINGS(float)
-SIMDBEZIER_EDGE_RINGS(double)
-#undef SIMDBEZIER_EDGE_RINGS
+SIMDBEZIER_OF_BOTH_TYPES(find_rings);
 
 } // namespace simdbezier::detail

@@ -382,6 +382,11 @@ TEST(Adjacency, BadInput) {
   EXPECT_EQ(status([](auto& nets) { nets.components = 0; }), Status::bad_components);
   EXPECT_EQ(status([](auto& nets) { nets.row_stride = 0; }), Status::bad_stride);
   EXPECT_EQ(status([](auto& nets) { nets.count = SIZE_MAX / 4; }), Status::size_overflow);
+  EXPECT_EQ(status([](auto& nets) {
+              nets.patch_stride = 0;
+              nets.count = std::size_t{1} << 30;
+            }),
+            Status::size_overflow);
   EXPECT_EQ(links, before);
   EXPECT_EQ(find_adjacency(batch.nets(), nullptr), Status::null_output);
   // Nets within the room for the links.

@@ -17,7 +17,7 @@ namespace simdbezier::detail {
 class EdgeNumbers {
 public:
   /// shares: of the patches.
-  EdgeNumbers(const EdgeRings<std::uint32_t>& rings, const Shares& shares, TopologyData& topology)
+  EdgeNumbers(const EdgeRings& rings, const Shares& shares, TopologyData& topology)
       : rings_(rings), shares_(shares), topology_(topology), found_(shares.count()),
         marks_(rings.next.size() + kApart * shares.count()), firsts_(rings.next.size()) {
     topology.sides.resize(rings.next.size());
@@ -120,7 +120,7 @@ private:
     } while (side != first);
   }
 
-  const EdgeRings<std::uint32_t>& rings_;
+  const EdgeRings& rings_;
   const Shares& shares_;
   TopologyData& topology_;
   std::vector<Share> found_;

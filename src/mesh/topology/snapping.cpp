@@ -86,7 +86,7 @@ struct Match {
 template <typename S>
 class SideMatcher {
 public:
-  SideMatcher(const NetCorners<S>& nets, double distance, const EdgeRings<std::uint32_t>& rings)
+  SideMatcher(const NetCorners<S>& nets, double distance, const EdgeRings& rings)
       : nets_(nets), distance_(distance), rings_(rings) {
     SideNet net;
     for (std::uint32_t side = 0; side < rings.next.size(); ++side) {
@@ -149,7 +149,7 @@ private:
 
   const NetCorners<S>& nets_;
   double distance_;
-  const EdgeRings<std::uint32_t>& rings_;
+  const EdgeRings& rings_;
   std::vector<PlacedSide> sides_;
   SideNet own_;
   SideNet other_;
@@ -194,8 +194,7 @@ double distance_of(const SideNet& a, const SideNet& b, bool reversed) {
 }
 
 template <typename S>
-std::size_t snap_sides(const NetCorners<S>& nets, double distance,
-                       EdgeRings<std::uint32_t>& rings) {
+std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings& rings) {
   std::size_t snapped = 0;
   for (const Match& match : SideMatcher<S>(nets, distance, rings).find()) {
     if (!rings.is_alone(match.a)) {

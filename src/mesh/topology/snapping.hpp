@@ -16,7 +16,7 @@ namespace simdbezier::detail {
 /// from the same or from opposite ends, are certainly within a distance of each other. Open sides
 /// that match a point become points. Returns how many sides were linked.
 template <typename S>
-std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings<std::uint32_t>& rings);
+std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings& rings);
 
 /// How far the vertices of a patch may lie from where its own corners and edges would put them.
 template <typename S>

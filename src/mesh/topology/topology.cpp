@@ -26,7 +26,7 @@ namespace {
 /// short as point_size or `snap`. Open ones would match their neighbours either way round, so that
 /// any pairs of them, around a pole for example, would be joined.
 template <typename S>
-void collapse_short_sides(const NetCorners<S>& nets, double size, EdgeRings<std::uint32_t>& rings) {
+void collapse_short_sides(const NetCorners<S>& nets, double size, EdgeRings& rings) {
   for (std::size_t side = 0; size > 0 && side < rings.next.size(); ++side) {
     if (!rings.is_point(side) && nets.side_within(side, size)) {
       rings.make_point(side);
@@ -56,7 +56,7 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
   topology.counts.patches = topology.patches();
   const NetCorners<S> corners(nets);
   {
-    auto rings = find_rings<S, std::uint32_t>(nets, threads);
+    auto rings = find_rings<S>(nets, threads);
     collapse_short_sides(corners, std::max(options.point_size, options.snap), rings);
     if (options.snap > 0) {
       topology.counts.snapped_sides = snap_sides(corners, options.snap, rings);
