@@ -1,6 +1,5 @@
 // Statuses, faults, version and instruction sets of simdbezier.h.
 #include <cstdio>
-#include <cstring>
 
 #include <simdbezier/options.hpp>
 

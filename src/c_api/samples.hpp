@@ -1,7 +1,6 @@
 // Where sets are evaluated and what is wanted there: structs of simdbezier.h as C++ has them.
 #pragma once
 
-#include <cstdint>
 #include <type_traits>
 
 #include <simdbezier/curves.hpp>

@@ -1,5 +1,4 @@
 // Splines of simdbezier.h: their patches, places and samples.
-#include <cmath>
 
 #include <simdbezier/splines.hpp>
 

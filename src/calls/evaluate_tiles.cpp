@@ -57,19 +57,12 @@ public:
   TileMemory(const TileFormat& format, std::size_t dimension, std::size_t samples) noexcept
       : format_(format), dimension_(dimension), samples_(samples) {}
 
+  /// Room for every layout, of which planes take the most.
   [[nodiscard]] std::size_t bytes() const noexcept {
-    const std::size_t values = vector_values(format_.outputs, dimension_);
-    const std::size_t bytes =
-        (format_.outputs.holds(Output::status) ? whole_lines(samples_) : 0) +
-        (format_.outputs.holds(Output::curvature) ? kCurvatureKinds * taken(samples_) : 0);
-    switch (format_.layout) {
-    case TileLayout::planes:
-      return bytes + values * taken(samples_);
-    case TileLayout::xyz:
-      return bytes + values / dimension_ * taken(dimension_ * samples_);
-    default:
-      return bytes + taken(values * samples_);
-    }
+    const std::size_t curvatures = format_.outputs.holds(Output::curvature) ? kCurvatureKinds : 0;
+    const std::size_t statuses = format_.outputs.holds(Output::status) ? samples_ : 0;
+    return (vector_values(format_.outputs, dimension_) + curvatures) * taken(samples_) +
+           whole_lines(statuses);
   }
 
   [[nodiscard]] Outputs<T> place(unsigned char* memory) const noexcept {

@@ -290,10 +290,9 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
   ErrorBounds bounds;
   Isa chosen = Isa::automatic;
   if (resolve_isa(isa, chosen) != Status::ok) {
-    constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    std::fill(std::begin(bounds.position), std::end(bounds.position), kUnknown);
-    std::fill(std::begin(bounds.du), std::end(bounds.du), kUnknown);
-    std::fill(std::begin(bounds.dv), std::end(bounds.dv), kUnknown);
+    for (double* const of : {bounds.position, bounds.du, bounds.dv}) {
+      std::fill_n(of, kMostComponents, std::numeric_limits<double>::infinity());
+    }
     return bounds;
   }
   if (patch >= set.size()) {

@@ -224,10 +224,9 @@ CurveErrorBounds error_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa
   CurveErrorBounds bounds;
   Isa chosen = Isa::automatic;
   if (resolve_isa(isa, chosen) != Status::ok) {
-    constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    std::fill_n(bounds.position, kMostComponents, kUnknown);
-    std::fill_n(bounds.d1, kMostComponents, kUnknown);
-    std::fill_n(bounds.d2, kMostComponents, kUnknown);
+    for (double* const of : {bounds.position, bounds.d1, bounds.d2}) {
+      std::fill_n(of, kMostComponents, std::numeric_limits<double>::infinity());
+    }
     return bounds;
   }
   if (curve >= set.size()) {

@@ -49,16 +49,15 @@ Status allocate(std::size_t count, CurveStorage<T>& storage) {
 template <typename T, typename S>
 Report inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storage, std::size_t curve) {
   const CurveShape& shape = storage.shape;
-  const S* const polygon = curves.points + static_cast<std::ptrdiff_t>(curve) * curves.curve_stride;
-  for (int c = 0; c < static_cast<int>(shape.channels()); ++c) {
-    for (int i = 0; i <= shape.degree; ++i) {
-      const S value = polygon[i * curves.point_stride + c * curves.component_stride];
-      if (c == shape.components && !is_weight<T>(value)) {
-        return {Status::bad_weight, curve, i, c};
-      }
-      if (!std::isfinite(value)) {
-        return {Status::non_finite_input, curve, i, c};
-      }
+  const ControlNets<S> rows = as_rows(curves);
+  for (std::size_t c = 0; c < shape.channels(); ++c) {
+    const bool weight = c == static_cast<std::size_t>(shape.components);
+    const int point = ChannelView<S>(rows, curve, c).first_not([weight](S value) {
+      return weight ? is_weight<T>(value) : std::isfinite(value);
+    });
+    if (point >= 0) {
+      return {weight ? Status::bad_weight : Status::non_finite_input, curve, point,
+              static_cast<int>(c)};
     }
   }
   const T* const values = storage.values + curve * shape.values();

@@ -2,7 +2,6 @@
 #include <simdbezier/splines.hpp>
 
 #include <algorithm>
-#include <vector>
 
 #include "src/splines/spline_grid_work.hpp"
 

@@ -88,8 +88,8 @@ bool are_same(const SplineAxis& a, const SplineAxis& b) noexcept {
 } // namespace
 
 template <typename S>
-Report SplineList<S>::add(const SplineSurface<S>& surface) {
-  PreparedSpline<S> spline{surface, {}, {}, 0, 0, false};
+Report SplineList<S>::add(const SplineSurface<S>& surface, int directions) {
+  PreparedSpline<S> spline{surface, {}, {}, patches_, rows_, false};
   for (int direction = 0; direction < 2; ++direction) {
     const SplineAxis axis = axis_of(surface, direction);
     auto& factors = direction == 0 ? spline.u : spline.v;
@@ -105,25 +105,20 @@ Report SplineList<S>::add(const SplineSurface<S>& surface) {
     if (factors == nullptr) {
       const auto built = std::make_shared<SplineFactors>();
       std::size_t knot = 0;
-      if (const Status status = built->build(axis, knot); !status) {
+      if (direction == directions) {
+        built->build_point();
+      } else if (const Status status = built->build(axis, knot); !status) {
         return {status, 0, static_cast<std::ptrdiff_t>(knot), direction};
       }
       factors = built;
     }
   }
-  return finish(spline);
-}
-
-template <typename S>
-Report SplineList<S>::finish(PreparedSpline<S> spline) {
-  if (const Status status = check_points(spline.surface); !status) {
+  if (const Status status = check_points(surface); !status) {
     return {status};
   }
   if (const Report report = inspect(spline); !report) {
     return report;
   }
-  spline.first_patch = patches_;
-  spline.first_row = rows_;
   rows_ += spline.v->spans(); // below 2^31 each, of vectors that are in memory
   std::size_t patches = 0;
   if (__builtin_mul_overflow(spline.u->spans(), spline.v->spans(), &patches) ||
@@ -138,7 +133,7 @@ template <typename S>
 Report SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
   splines_.reserve(surfaces.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (Report report = add(surfaces[k]); !report) {
+    if (Report report = add(surfaces[k], 2); !report) {
       report.item = k;
       return report;
     }
@@ -148,15 +143,7 @@ Report SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
 
 template <typename S>
 Report SplineList<S>::prepare(const SplineCurve<S>& curve) {
-  const SplineSurface<S> surface = as_surface(curve);
-  const auto u = std::make_shared<SplineFactors>();
-  std::size_t knot = 0;
-  if (const Status status = u->build(axis_of(surface, 0), knot); !status) {
-    return {status, 0, static_cast<std::ptrdiff_t>(knot), 0};
-  }
-  const auto v = std::make_shared<SplineFactors>();
-  v->build_point();
-  return finish({surface, u, v, 0, 0, false});
+  return add(as_surface(curve), 1);
 }
 
 template <typename S>

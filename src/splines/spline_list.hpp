@@ -81,8 +81,8 @@ public:
   [[nodiscard]] std::size_t scratch_bytes() const noexcept;
 
 private:
-  [[nodiscard]] Report add(const SplineSurface<S>& surface);
-  [[nodiscard]] Report finish(PreparedSpline<S> spline);
+  /// directions: 2, or 1 of a curve, which has one row of points.
+  [[nodiscard]] Report add(const SplineSurface<S>& surface, int directions);
 
   std::vector<PreparedSpline<S>> splines_;
   std::size_t patches_ = 0;

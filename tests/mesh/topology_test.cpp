@@ -6,7 +6,7 @@
 
 #include <simdbezier/topology.hpp>
 
-#include "src/mesh/topology/quick_look.hpp"
+#include "src/mesh/topology/net_corners.hpp"
 #include "tests/mesh/mesh_models.hpp"
 
 namespace simdbezier::tests::topology_test {
