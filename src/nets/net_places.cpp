@@ -75,8 +75,8 @@ bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept {
       return false;
     }
   }
-  // Room for sums and differences of two of them.
-  constexpr auto kMostSpan = static_cast<std::ptrdiff_t>(kMost);
+  // Room for what reaches() adds up of two of them: six such numbers, if a range has two.
+  constexpr std::ptrdiff_t kMostSpan = std::numeric_limits<std::ptrdiff_t>::max() / 8;
   lattice.range = {nets.points, lowest, highest};
   return lowest > -kMostSpan && highest < kMostSpan;
 }
