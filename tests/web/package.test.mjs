@@ -285,6 +285,23 @@ test('a view keeps its set', async () => {
   }
 });
 
+test('results can be what the next call takes', async () => {
+  for (const use of [
+    (own, set, values) => own.patches(values), // 60 000 of them, which are many for 32 bits
+    (own, set, values) => set.samples(new Uint8Array(values.length), values, values, { copy: true }).position,
+  ]) {
+    const [first, expected] = [await load(), await load()].map((own, again) => {
+      const set = own.read('builtin:teapot');
+      const { position } = set.grid(300, 100);
+      const pages = own.memoryBytes;
+      const results = use(own, set, again ? position.slice() : position);
+      assert.ok(own.memoryBytes > pages); // which detached the position
+      return results.size ?? results;
+    });
+    assert.deepEqual(first, expected);
+  }
+});
+
 test('memory does not grow over many meshes', async () => {
   const own = await loadDoubles();
   const round = (k) => {

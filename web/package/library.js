@@ -114,7 +114,7 @@ class Simdbezier {
     expectKnown(rest, []);
     const flags = choice('precision', precision, PRECISIONS) + (ignoreTrims ? 2 : 0);
     const text = new TextEncoder().encode(name);
-    const data = bytesOf(name, bytes);
+    const data = lasting(this.#wasm, bytesOf(name, bytes));
     return this.#made(text.length + data.length, flags, (at, heap) => {
       heap.set(data, at);
       heap.set(text, at + data.length);
@@ -149,6 +149,7 @@ class Simdbezier {
     if (points.length === 0 || points.length % each !== 0) {
       fail(`points: expected a multiple of ${each} values, found ${points.length}`);
     }
+    points = lasting(this.#wasm, points);
     return this.#made(8 * points.length, flags, (at) => {
       new Float64Array(this.#wasm.memory.buffer, at, points.length).set(points);
       return this.#wasm.make_model(at, points.length / each, degreeU, degreeV, form, flags);
@@ -161,6 +162,9 @@ class Simdbezier {
     return new PatchSet(this.#wasm, handle, (flags & 1) !== 0);
   }
 }
+
+/** Values that stay when the instance's memory grows, which would detach its own results. */
+const lasting = (wasm, values) => values.buffer === wasm.memory.buffer ? values.slice() : values;
 
 /** Lends memory of the instance to use(address, bytes of all of it). */
 function withMemory(wasm, bytes, use) {
@@ -233,6 +237,7 @@ class PatchSet {
     if (u.length !== count || v.length !== count) {
       fail(`expected as many u and v as patches, found ${count} patches, ${u.length} u and ${v.length} v`);
     }
+    [patches, u, v] = [patches, u, v].map((values) => lasting(this.#wasm, values));
     const Values = this.#doubles ? Float64Array : Float32Array;
     const each = Values.BYTES_PER_ELEMENT;
     return this.#evaluated(options, (...how) => withMemory(this.#wasm, (4 + 2 * each) * count, (at) => {
