@@ -34,6 +34,11 @@ struct RecordColumn {
       __builtin_memcpy(places.to[g] + at + kLanes<V> * places.record, triple[g] + 3 * row,
                        3 * sizeof(T));
     });
+    if (places.column_values != nullptr) {
+      T* const behind = places.to[0] + at + kLanes<V> * places.record + 6;
+      behind[0] = places.column_values[kLanes<V>];
+      behind[1] = *places.row_value;
+    }
   }
 
   /// Sweeps the rows of `piece`, whose first one begins with sample `at` of the task.

@@ -68,7 +68,11 @@ struct RecordRows {
         trail(piece.trail ? piece.rows() - 1 : ~std::size_t(0)) {}
 
   [[nodiscard]] SIMDBEZIER_PART Cursor start(const GridTask<T>& task, const Column* column) const {
-    return {lead == 0 ? lead : trail, trail, piece.middle.y, column, {task, at}};
+    return {lead == 0 ? lead : trail,
+            trail,
+            piece.middle.y,
+            column,
+            {task, at, sweep.tile.first, piece.first}};
   }
 
   /// Returns the edge v = const that a row is on, or kEdges, no edge's number, if it is on none.
@@ -264,7 +268,7 @@ SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
       rows.put_normals(start);
     } else if constexpr (kOutputs == detail::kPosition) {
       if (pairs_records<V>(task)) {
-        rows.put_pairs(RecordPlaces<kOutputs, T>(task, at), extra ? &column : nullptr);
+        rows.put_pairs({task, at, first_column, piece.first}, extra ? &column : nullptr);
       } else {
         rows.put(start);
       }

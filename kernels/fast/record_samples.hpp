@@ -4,6 +4,7 @@
 #include "kernels/grid/tile_components.hpp"
 #include "kernels/poly/normal_lanes.hpp"
 #include "kernels/simd/registers_to_records.hpp"
+#include "src/tables/sample_record.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -30,9 +31,18 @@ struct RecordPlaces {
   std::size_t record;    ///< as in GridTask
   std::size_t step;      ///< values from one row to the next
   bool streaming;
+  const T* column_values; ///< of the register, null where records have none
+  const T* row_value;     ///< of the row
 
-  SIMDBEZIER_PART RecordPlaces(const GridTask<T>& task, std::size_t at)
-      : record(task.record), step(task.nu * task.record), streaming(task.streaming) {
+  /// The records from sample `at` of the task on, which is at (column, row).
+  SIMDBEZIER_PART RecordPlaces(const GridTask<T>& task, std::size_t at, std::size_t column,
+                               std::size_t row)
+      : record(task.record), step(task.nu * task.record), streaming(task.streaming),
+        column_values(nullptr), row_value(nullptr) {
+    if (Groups::kNormals && record == detail::kVertexRecord) {
+      column_values = task.column_values + column;
+      row_value = task.row_values + row;
+    }
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       to[g] = task.out[output_index(Groups::kOutput[g])].component[0] + at * record;
     });
@@ -42,6 +52,20 @@ struct RecordPlaces {
   /// g.
   template <typename V>
   SIMDBEZIER_PART void store(const V* value, std::size_t at) const {
+    if constexpr (Groups::kNormals) {
+      if (column_values != nullptr) {
+        V vertex[detail::kVertexRecord] = {value[0],
+                                           value[1],
+                                           value[2],
+                                           value[3],
+                                           value[4],
+                                           value[5],
+                                           load_vector<V>(column_values),
+                                           broadcast<V>(*row_value)};
+        store_values_across<detail::kVertexRecord>(vertex, to[0] + at, record);
+        return;
+      }
+    }
     if constexpr (Groups::kCount > 1) {
       if (record > 3) {
         LinePart<T> part[3 * Groups::kCount];
@@ -56,6 +80,7 @@ struct RecordPlaces {
   }
   SIMDBEZIER_PART void next_row() {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA { to[g] += step; });
+    row_value += column_values != nullptr ? 1 : 0;
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/sort.hpp"
+#include "src/tables/sample_record.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -76,7 +77,8 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   }
   const std::size_t record = stream_[0].members;
   const std::size_t line = 64 / sizeof(T);
-  const bool vertex = record == staged_planes_ && record % 3 == 0; // not with parameters
+  const bool vertex =
+      record == staged_planes_ && (record % 3 == 0 || (rows.vertices && record == kVertexRecord));
   const bool known = record == 1 || record == 3 || vertex;
   const bool all = staged_planes_ == vector_values_;
   const bool anywhere = record == 1 && rows.streamed_anywhere;

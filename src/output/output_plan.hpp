@@ -33,6 +33,7 @@ struct DirectRows {
   bool same_place = false;        ///< streamed_anywhere: if all begin at one place within a line
   bool records = false;           ///< triples of each group, or one vertex of all
   bool streamed_records = false;  ///< likewise, past the caches
+  bool vertices = false;          ///< with records, vertices of kVertexRecord as well
 };
 
 /// How the outputs of one call are delivered.

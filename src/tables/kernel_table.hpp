@@ -110,6 +110,9 @@ struct GridTask : SampleTask<T> {
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
   StrategySet allowed;  ///< read by the kernels of bicubic patches
   StrategySet taken;    ///< written by these
+  /// Values of columns and rows that stand behind position and normal in records of kVertexRecord.
+  const T* column_values;
+  const T* row_values;
 };
 
 /// Scattered samples with unit-stride outputs.

@@ -10,4 +10,8 @@ namespace simdbezier::detail {
 /// patches have them (kernels/fast/small_jets_across.hpp), of both outputs.
 inline constexpr std::size_t kSampleRecord = 8;
 
+/// A whole vertex: x y z, the normal, u v. Kernels that put records together write them
+/// (kernels/fast/record_rows.hpp), but not past the caches.
+inline constexpr std::size_t kVertexRecord = 8;
+
 } // namespace simdbezier::detail

@@ -53,7 +53,9 @@ public:
            const ParameterOutputs<T>& parameters, Way way) noexcept
       : outputs_(out, way), task_(task), parameters_(parameters), kernels_(kernels) {
     task_.kernels = &kernels_;
-    outputs_.put_directly(kernels_.direct_rows(task.mesh->least_nu - 1));
+    DirectRows rows = kernels_.direct_rows(task.mesh->least_nu - 1);
+    rows.vertices = kernels_.choice.outputs == kPositionNormal;
+    outputs_.put_directly(rows);
     chunk_ = task_.chunk(std::min(chunk(), kMostChunk));
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), chunk_));

@@ -25,6 +25,8 @@ struct PieceParameters {
   const RowRun<T>* runs;
   std::size_t run_count;
   std::size_t patch_step; ///< samples from one patch to the next
+  const T* u = nullptr;   ///< of columns and rows, for records of kVertexRecord
+  const T* v = nullptr;
 };
 
 /// The memory that samples go to: a patch's rows one after the other.
@@ -250,6 +252,8 @@ private:
     grid_.run_count = piece.run_count;
     grid_.patch_step = piece.patch_step;
     grid_.record = to.record;
+    grid_.column_values = piece.u;
+    grid_.row_values = piece.v;
     grid_.by_lines = kernels_.by_lines;
     grid_.allowed = kernels_.allowed;
     grid_.drain = to.drain;

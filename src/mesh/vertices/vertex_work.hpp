@@ -142,7 +142,7 @@ private:
       const std::size_t rows = std::min({last - row, (chunk_ - filled_) / columns, kMostMeshRows});
       if (grid != nullptr && grid->whole) {
         put_rows(*grid, row, rows);
-        finish_rows(patch, row, rows);
+        finish_rows(patch, row, rows, target_.parameters);
       } else if (!joins_group(patch, row, rows)) {
         run_group();
         group_ = {patch, 1, row, rows, 0};
@@ -194,16 +194,23 @@ private:
   }
   void run_group() noexcept {
     const auto [patch, patches, row, rows, step] = group_;
+    if (patches == 0) {
+      return;
+    }
     group_.patches = 0;
-    if (patches > 0) {
-      const std::size_t columns = mesh_.nu[patch] - 1;
-      const T* const x = boundary_.line(mesh_.nu[patch]).along;
-      const T* const y = boundary_.line(mesh_.nv[patch]).along;
-      const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
-      samples_.runner().run(patch, patches, {x, columns, &run, 1, step}, target_at(patch, row));
+    const std::size_t columns = mesh_.nu[patch] - 1;
+    const ParameterLine<T> x = boundary_.line(mesh_.nu[patch]);
+    const ParameterLine<T> y = boundary_.line(mesh_.nv[patch]);
+    const RowRun<T> run{y.along + row, static_cast<std::uint32_t>(rows), RowKind::interior};
+    samples_.runner().run(patch, patches,
+                          {x.along, columns, &run, 1, step, x.shares, y.shares + row},
+                          target_at(patch, row));
+    ParameterOutputs<T> missing = target_.parameters;
+    if (target_.step == kVertexRecord) {
+      missing.u = nullptr; // kernels have written u and v
     }
     for (std::size_t k = 0; k < patches; ++k) {
-      finish_rows(patch + k, row, rows);
+      finish_rows(patch + k, row, rows, missing);
     }
   }
   /// Where rows of inner points go that follow each other.
@@ -218,7 +225,8 @@ private:
     return {moved(target_.position), moved(target_.normal), target_.step, target_.drain};
   }
   /// Turns normals of rows if their patch is turned, and puts the rows' parameters.
-  void finish_rows(std::size_t patch, std::size_t row, std::size_t rows) noexcept {
+  void finish_rows(std::size_t patch, std::size_t row, std::size_t rows,
+                   const ParameterOutputs<T>& parameters) noexcept {
     const std::size_t columns = mesh_.nu[patch] - 1;
     if (task_.normals && mesh_.topology.data()->is_turned(patch)) {
       for (T* const plane : target_at(patch, row).normal.component) {
@@ -227,14 +235,14 @@ private:
         }
       }
     }
-    if (!target_.parameters.wanted()) {
+    if (!parameters.wanted()) {
       return;
     }
     const T* const u = boundary_.line(mesh_.nu[patch]).shares;
     const T* const v = boundary_.line(mesh_.nv[patch]).shares;
     for (std::size_t j = row; j < row + rows; ++j) {
-      target_.parameters.put_run(mesh_.inner[patch] + j * columns - target_.parameters_first,
-                                 columns, static_cast<std::uint32_t>(patch), u, 1, v + j, 0);
+      parameters.put_run(mesh_.inner[patch] + j * columns - target_.parameters_first, columns,
+                         static_cast<std::uint32_t>(patch), u, 1, v + j, 0);
     }
   }
 
