@@ -24,8 +24,7 @@ struct IsoTask {
   Weights form; ///< of the results: that of the nets, or cartesian
 
   IsoTask(const ControlNets<S>& all, Across direction, double parameter)
-      : nets(direction == Across::u ? all : transposed(all)),
-        channels(static_cast<std::size_t>(all.components) + (all.weights == Weights::none ? 0 : 1)),
+      : nets(direction == Across::u ? all : transposed(all)), channels(shape_of(all).channels()),
         t(parameter), form(all.weights) {}
   /// The nets that a bucket keeps, S as they were given.
   template <typename T>

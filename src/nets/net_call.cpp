@@ -13,22 +13,7 @@
 namespace simdbezier::detail {
 namespace {
 
-template <typename View>
-std::size_t channels_of(const View& nets) noexcept {
-  return static_cast<std::size_t>(nets.components) + (nets.weights == Weights::none ? 0 : 1);
-}
-
 bool is_degree(int degree) noexcept { return degree >= 1 && degree <= kMostDegree; }
-
-template <typename S>
-Status check_shape(const ControlNets<S>& nets) noexcept {
-  if (!is_degree(nets.degree_u) || !is_degree(nets.degree_v)) {
-    return Status::bad_degree;
-  }
-  const bool usable = nets.components >= 1 && nets.components <= kMostComponents &&
-                      nets.weights <= Weights::homogeneous;
-  return usable ? Status::ok : Status::bad_components;
-}
 
 /// Whether one run of values holds one that is not finite: by its exponent, since integers are what
 /// compilers vectorise.
@@ -85,7 +70,7 @@ bool doubtful(const NetView<const S>& view, std::size_t patch, bool check_weight
 
 template <typename S>
 NetView<const S> view_of(const ControlNets<S>& nets) noexcept {
-  const std::size_t channels = channels_of(nets);
+  const std::size_t channels = shape_of(nets).channels();
   const auto point = static_cast<std::ptrdiff_t>(channels);
   const std::ptrdiff_t row = (nets.degree_u + 1) * point;
   const bool packed = (nets.component_stride == 1 || channels == 1) && nets.point_stride == point &&
@@ -113,21 +98,8 @@ NetView<S> view_of(const MutableNets<S>& nets) noexcept {
 
 template <typename S>
 Status check_input(const ControlNets<S>& nets) noexcept {
-  if (const Status status = check_shape(nets); !status) {
-    return status;
-  }
-  if (nets.points == nullptr && nets.count > 0) {
-    return Status::null_input;
-  }
-  if (nets.row_stride == 0 || nets.point_stride == 0 ||
-      (nets.component_stride == 0 && channels_of(nets) > 1)) {
-    return Status::bad_stride;
-  }
-  Lattice lattice;
-  if (!lattice_of(nets, lattice)) {
-    return Status::size_overflow;
-  }
-  return lies_in(lattice, nets.count, nets.memory) ? Status::ok : Status::input_too_small;
+  return is_degree(nets.degree_u) && is_degree(nets.degree_v) ? check_places(nets)
+                                                              : Status(Status::bad_degree);
 }
 
 template <typename S>

@@ -81,6 +81,27 @@ bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept {
   return lowest > -kMostSpan && highest < kMostSpan;
 }
 
+template <typename S>
+Status check_places(const ControlNets<S>& nets) noexcept {
+  if (nets.components < 1 || nets.components > kMostComponents ||
+      nets.weights > Weights::homogeneous) {
+    return Status::bad_components;
+  }
+  if (nets.points == nullptr && nets.count > 0) {
+    return Status::null_input;
+  }
+  const bool single = nets.components == 1 && nets.weights == Weights::none;
+  if ((nets.row_stride == 0 && nets.degree_v > 0) || nets.point_stride == 0 ||
+      (nets.component_stride == 0 && !single)) {
+    return Status::bad_stride;
+  }
+  Lattice lattice;
+  if (!lattice_of(nets, lattice)) {
+    return Status::size_overflow;
+  }
+  return lies_in(lattice, nets.count, nets.memory) ? Status::ok : Status::input_too_small;
+}
+
 bool nests(Lattice lattice, std::ptrdiff_t value_bytes) noexcept {
   sort_by_stride(lattice.direction);
   std::ptrdiff_t span = value_bytes;
@@ -123,5 +144,6 @@ bool collide(const Lattice& a, const Lattice& b, std::ptrdiff_t value_bytes) noe
 }
 
 SIMDBEZIER_OF_BOTH_TYPES(lattice_of);
+SIMDBEZIER_OF_BOTH_TYPES(check_places);
 
 } // namespace simdbezier::detail

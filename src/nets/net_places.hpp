@@ -6,6 +6,7 @@
 #include <span>
 
 #include <simdbezier/control_nets.hpp>
+#include <simdbezier/status.hpp>
 
 #include "src/output/memory_range.hpp"
 
@@ -33,6 +34,11 @@ bool lies_in(const Lattice& lattice, std::size_t count, std::span<const S> memor
   return count == 0 || (memory.data() == nullptr && memory.empty()) ||
          MemoryRange(memory).contains(lattice.range);
 }
+
+/// Whether nets of any degrees can be read: ok | bad_components | null_input | bad_stride |
+/// size_overflow | input_too_small. Nets of one row need no stride of rows.
+template <typename S>
+Status check_places(const ControlNets<S>& nets) noexcept;
 
 /// Whether every stride exceeds what the smaller ones span, so that no two values share a place.
 bool nests(Lattice lattice, std::ptrdiff_t value_bytes) noexcept;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/status.hpp>
 
 #include "src/nets/net_places.hpp"
 
@@ -22,25 +21,8 @@ template <typename S>
 /// ok | bad_degree | bad_components | null_input | bad_stride | size_overflow | input_too_small.
 template <typename S>
 [[nodiscard]] Status check_curves(const ControlCurves<S>& curves) noexcept {
-  if (curves.degree < 1 || curves.degree > kMostDegree) {
-    return Status::bad_degree;
-  }
-  if (curves.components < 1 || curves.components > kMostComponents ||
-      curves.weights > Weights::homogeneous) {
-    return Status::bad_components;
-  }
-  if (curves.points == nullptr && curves.count > 0) {
-    return Status::null_input;
-  }
-  const bool single = curves.components == 1 && curves.weights == Weights::none;
-  if (curves.point_stride == 0 || (curves.component_stride == 0 && !single)) {
-    return Status::bad_stride;
-  }
-  Lattice lattice;
-  if (!lattice_of(as_rows(curves), lattice)) {
-    return Status::size_overflow;
-  }
-  return lies_in(lattice, curves.count, curves.memory) ? Status::ok : Status::input_too_small;
+  return curves.degree >= 1 && curves.degree <= kMostDegree ? check_places(as_rows(curves))
+                                                            : Status(Status::bad_degree);
 }
 
 } // namespace simdbezier::detail

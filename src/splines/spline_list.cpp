@@ -4,36 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/nets/net_call.hpp"
 #include "src/nets/net_places.hpp"
 #include "src/splines/spline_knots.hpp"
 #include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
 namespace {
-
-/// Whether the points can be read: degrees and numbers are sound.
-template <typename S>
-Status check_points(const SplineSurface<S>& surface) noexcept {
-  if (surface.points == nullptr) {
-    return Status::null_input;
-  }
-  if (surface.components < 1 || surface.components > kMostComponents ||
-      surface.weights > Weights::homogeneous) {
-    return Status::bad_components;
-  }
-  const bool one_row = surface.rows == 1;
-  if ((surface.row_stride == 0 && !one_row) || surface.point_stride == 0 ||
-      surface.component_stride == 0) {
-    return Status::bad_stride;
-  }
-  Lattice lattice;
-  const ControlNets<S> net = one_net(surface);
-  if (!lattice_of(net, lattice)) {
-    return Status::size_overflow;
-  }
-  return lies_in(lattice, 1, surface.memory) ? Status::ok : Status::input_too_small;
-}
 
 /// Values beyond might overflow in sums with whole numbers as factors, which are up to 15!, or when
 /// a mean is rounded to float.
@@ -113,7 +89,7 @@ Report SplineList<S>::add(const SplineSurface<S>& surface, int directions) {
       factors = built;
     }
   }
-  if (const Status status = check_points(surface); !status) {
+  if (const Status status = check_places(one_net(surface)); !status) {
     return {status};
   }
   if (const Report report = inspect(spline); !report) {

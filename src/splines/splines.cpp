@@ -95,7 +95,6 @@ Report cut_curve(const SplineCurve<T>& curve, const Values<T>& points,
     return report;
   }
   const PreparedSpline<T>& spline = list.splines().front();
-  const auto channels = static_cast<std::ptrdiff_t>(spline.channels());
   const std::size_t pieces = list.patches();
   const std::size_t values = pieces * spline.u->order() * spline.channels();
   if (!intervals.empty() && intervals.size() != pieces) {
@@ -110,18 +109,8 @@ Report cut_curve(const SplineCurve<T>& curve, const Values<T>& points,
   if (MemoryRange(points.first, values * sizeof(T)).meets(points_of(spline.surface))) {
     return {Status::overlapping_outputs};
   }
-  const auto piece = static_cast<std::ptrdiff_t>(spline.u->order()) * channels;
-  const NetView<T> out{points.first,
-                       spline.u->order(),
-                       1,
-                       static_cast<std::size_t>(curve.components),
-                       spline.channels(),
-                       piece,
-                       piece,
-                       channels,
-                       1,
-                       curve.weights,
-                       true};
+  const NetView<T> out = view_of(MutableNets<T>::packed(points.first, pieces, curve.degree, 0,
+                                                        curve.components, curve.weights));
   const Status status = cut_all(list, out, options);
   for (std::size_t k = 0; status == Status::ok && k < intervals.size(); ++k) {
     intervals[k] = spline.u->interval(k);
