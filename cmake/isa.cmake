@@ -218,7 +218,7 @@ endfunction()
 function(simdbezier_add_isa_kernels target)
   # Nets have many loops, few of them hot, and are moved value by value where they are not packed:
   # vectorised, and unrolled as far as sweeps need it, these were a third more code and no faster.
-  # Below 100 g++ leaves transposes in memory (kernels/nets/net_blocks.hpp).
+  # Below 100 g++ leaves transposes in memory (kernels/nets/net_group.hpp).
   set_property(SOURCE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/net_kernels.cpp
                APPEND PROPERTY COMPILE_OPTIONS
                "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;--param=max-completely-peeled-insns=100>")
