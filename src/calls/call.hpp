@@ -243,8 +243,9 @@ public:
       return Status::size_overflow;
     }
     const MemoryRange inputs[] = {{grid.u, grid.nu * sizeof(T)}, {grid.v, grid.nv * sizeof(T)}};
-    const bool uniform = grid.u == nullptr && grid.v == nullptr;
-    const Status usable = this->check_given(samples, std::span(inputs, uniform ? 0 : 2));
+    constexpr bool kRow = std::is_same_v<Set<T>, CurveSet<T>>; // whose v is not the caller's
+    const bool uniform = grid.u == nullptr && (kRow || grid.v == nullptr);
+    const Status usable = this->check_given(samples, std::span(inputs, uniform ? 0 : kRow ? 1 : 2));
     return usable ? plan_.build(grid) : usable;
   }
   [[nodiscard]] Work plan(Way way) const noexcept {

@@ -184,7 +184,7 @@ template <typename S>
 Report find_fault(const ControlNets<S>& nets, int threads, bool signed_weights) noexcept {
   const NetView<const S> view = view_of(nets);
   const bool check_weights = nets.weights != Weights::none && !signed_weights;
-  const std::size_t first = first_failure(nets.count, 10, threads, [&](std::size_t patch) {
+  const std::size_t first = first_failure(nets.count, 10, threads, [=](std::size_t patch) {
     return !doubtful(view, patch, check_weights) || fault_of(nets, patch, signed_weights);
   });
   Report report;
