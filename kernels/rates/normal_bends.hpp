@@ -23,8 +23,8 @@ SIMDBEZIER_INLINE SpaceVector<V> cubic_tangent(const SpaceVector<V>* p, std::siz
                       : (p[3 * step] - p[0]) + (p[2 * step] - p[step]);
 }
 
-/// What second derivatives along the normal at 3 x 3 samples tell of small cells; samples without a
-/// normal do not count.
+/// What second derivatives along the normal tell of small cells, in the middles of quarters: the
+/// means of four of 3 x 3 samples. Samples without a normal have none.
 template <typename V>
 struct NormalBends {
   V distance; ///< of the triangles from the surface, about
@@ -37,9 +37,7 @@ SIMDBEZIER_KERNEL NormalBends<V> bends_of(const RateScratch<V>& scratch, const C
   const V zero = broadcast<V>(T(0));
   const V tiny = broadcast<V>(std::numeric_limits<T>::min());
   const V flat = broadcast<V>(T(16) * kRoundoff<T>);
-  SecondTerms<V> largest{zero, zero, zero};
-  V rising[4] = {zero, zero, zero, zero};
-  V falling[4] = {zero, zero, zero, zero};
+  SecondTerms<V> at[9];
   for (std::size_t j = 0; j < 3; ++j) {
     SpaceVector<V> point[4];
     SpaceVector<V> along_v[4];
@@ -56,28 +54,32 @@ SIMDBEZIER_KERNEL NormalBends<V> bends_of(const RateScratch<V>& scratch, const C
       const V least = flat * square_root(u.square()) * square_root(v.square());
       const V inverse =
           select_where<V>(length > larger_of<V>(least, tiny),
-                          divide(broadcast<V>(T(1)), larger_of<V>(length, tiny)), zero);
+                          divide(broadcast<V>(T(0.25)), larger_of<V>(length, tiny)), zero);
       const SecondVectors<V>& second = scratch.nets.at[21 * j + 3 * i];
-      V uu = dot(normal, second.uu) * inverse;
-      V uv = dot(normal, second.uv) * inverse;
-      V vv = dot(normal, second.vv) * inverse;
-      largest = {larger_of<V>(largest.uu, size_of<V>(uu)), larger_of<V>(largest.uv, size_of<V>(uv)),
-                 larger_of<V>(largest.vv, size_of<V>(vv))};
-      uu = uu * step.uu;
-      uv = uv * step.uv;
-      vv = vv * step.vv;
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (i / 2 <= k % 2 && k % 2 <= (i + 1) / 2 && j / 2 <= k / 2 && k / 2 <= (j + 1) / 2) {
-          rising[k] = larger_of<V>(rising[k], size_of<V>((uu + vv) + uv));
-          falling[k] = larger_of<V>(falling[k], size_of<V>((uu + vv) - uv));
-        }
-      }
+      at[3 * j + i] = {dot(normal, second.uu) * inverse, dot(normal, second.uv) * inverse,
+                       dot(normal, second.vv) * inverse};
     }
   }
-  V most = larger_of<V>(largest.uu * step.uu, largest.vv * step.vv);
+  SecondTerms<V> largest{zero, zero, zero};
+  V most = zero;
   for (std::size_t k = 0; k < 4; ++k) {
-    most = larger_of<V>(most, smaller_of<V>(rising[k], falling[k]));
+    const SecondTerms<V>* const corner = at + k % 2 + 3 * (k / 2);
+    const auto mean =
+        [&](V SecondTerms<V>::*term) SIMDBEZIER_INLINE_LAMBDA { // however it is turned
+          return (corner[0].*term + corner[4].*term) + (corner[1].*term + corner[3].*term);
+        };
+    const SecondTerms<V> bend{mean(&SecondTerms<V>::uu), mean(&SecondTerms<V>::uv),
+                              mean(&SecondTerms<V>::vv)};
+    const auto include = [](V& to, V term)
+                             SIMDBEZIER_INLINE_LAMBDA { to = larger_of<V>(to, size_of<V>(term)); };
+    include(largest.uu, bend.uu);
+    include(largest.uv, bend.uv);
+    include(largest.vv, bend.vv);
+    const V both = bend.uu * step.uu + bend.vv * step.vv;
+    const V mixed = bend.uv * step.uv;
+    include(most, smaller_of<V>(size_of<V>(both + mixed), size_of<V>(both - mixed)));
   }
+  most = larger_of<V>(larger_of<V>(largest.uu * step.uu, largest.vv * step.vv), most);
   const V eighth = broadcast<V>(T(0.125));
   const V both = square_root(largest.uu * largest.vv) + largest.uv;
   return {eighth * most, eighth * (both + both), {eighth * largest.uu, eighth * largest.vv}};

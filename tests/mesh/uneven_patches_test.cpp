@@ -79,6 +79,18 @@ TestPatch flat(const double (&along)[4]) {
   });
 }
 
+/// Rows and columns that are nearly double.
+TestPatch nearly_doubled() {
+  return net_of("nearly doubled", 3, 3, Weights::none, [](int i, int j) {
+    constexpr double kAlong[] = {0, 0.02, 0.4, 1};
+    constexpr double kHeight[4][4] = {{0.02, 0.1, 0.14, 0.05},
+                                      {0.05, 0.3, 0.31, 0.12},
+                                      {0.06, 0.28, 0.35, 0.09},
+                                      {0.01, 0.13, 0.1, 0.03}};
+    return std::array{kAlong[i], kAlong[j], kHeight[j][i], 1.0};
+  });
+}
+
 const double kRoot = std::sqrt(0.5);
 
 std::vector<TestPatch> patches() {
@@ -95,6 +107,7 @@ std::vector<TestPatch> patches() {
           bend(kEven, kDoubled),
           bend(kPower, kEven),
           hull(),
+          nearly_doubled(),
           bend(kDoubled, kPower)};
 }
 
@@ -175,9 +188,11 @@ void expect_few_cells(const TestPatch& patch, double tolerance) {
 TEST(UnevenPatches, have_few_more_cells_than_they_need) {
   for (const TestPatch& patch :
        {flat(kDoubled), flat(kPower), cone(0.3, kRoot), cone(0, kRoot), cone(0, 1e3),
-        bicubic_cone(), octant(3, 3), octant(10, kRoot), octant(1e3, 1e3), bend(kEven, kDoubled)}) {
+        bicubic_cone(), octant(3, 3), octant(10, kRoot), octant(1e3, 1e3), bend(kEven, kDoubled),
+        hull(), nearly_doubled()}) {
     expect_few_cells(patch, 2e-3);
   }
+  expect_few_cells(octant(kRoot, kRoot), 1e-2); // an eighth of a sphere
 }
 
 // A quarter of a circle needs 176 chords of that sagitta; points of equal parameters are so far

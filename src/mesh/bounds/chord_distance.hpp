@@ -15,7 +15,7 @@ namespace simdbezier::detail {
 inline constexpr double kLeastSpread = 4.5;
 inline constexpr double kMostSpread = 0x1p40;
 
-/// A bound may be above what points of a surface or a curve ask for by this factor.
+/// A bound may be above what points of a curve ask for by this factor.
 inline constexpr double kCloseEnough = 1.125;
 
 /// Of all roundings, some 4000 at most, in units of the largest value.

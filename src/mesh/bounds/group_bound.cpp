@@ -19,8 +19,10 @@ namespace {
 constexpr double kDifferenceError = 64 * 0x1p-53;
 
 /// More cells than about these are not looked at, since they would take far longer than their
-/// vertices; nor chosen, unless others have so many times more.
-constexpr double kMostLooked = 64;
+/// vertices; nor chosen, unless others have far more.
+constexpr double kMostSearched = 256;
+constexpr double kMostCertified = 64;
+constexpr double kFarMore = 64;
 
 /// The angle of (x, y), where y is not below 0, to a few units in the last place: atan2() may have
 /// another last bit in another C library, and rates would depend on it.
@@ -143,25 +145,29 @@ void GroupBound::include_corners(LaneSet lanes, const LaneSegments& segments,
   }
 }
 
-SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
+SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual, bool searches,
                                  double least) const {
   const VectorPatch& patch = patches_[lane];
-  const auto pays = [&] {
-    if (usual.cells.product() < least) {
-      return false;
-    }
-    if (!bends_[lane]) {
-      bends_[lane].emplace(samples_, patch);
-    }
-    const double bound = usual.bound * patch.scale.inverse();
-    const double fewest = bends_[lane]->fewest(bound);
-    const double most =
-        least > 0 ? std::max(kMostLooked, usual.cells.product() / kMostLooked) : kMostLooked;
-    return fewest <= most && (fewest <= kWorthLooking * usual.cells.product() ||
-                              bends_[lane]->at(usual.cells) <= kWorthLooking * bound);
-  };
+  const double count = usual.cells.product();
   const double spread = weight_spread(patch);
-  if (!(spread < kMostSpread) || !(spread > kLeastSpread || pays())) {
+  const bool is_far = spread > kLeastSpread; // nothing tells whether it pays
+  if (!(spread < kMostSpread) || !(is_far || count >= least)) {
+    return nullptr;
+  }
+  if (!bends_[lane]) {
+    bends_[lane].emplace(samples_, patch);
+  }
+  const NormalBends& bends = *bends_[lane];
+  const auto pays = [&] {
+    const double bound = usual.bound * patch.scale.inverse();
+    const double fewest = bends.fewest(bound);
+    const double worth = searches ? kWorthSearching : kWorthCertifying;
+    const double most = searches ? kMostSearched : kMostCertified;
+    return fewest <= std::max(most, least > 0 ? count / kFarMore : 0) &&
+           (fewest <= worth * count ||
+            bends.at(1.0 / usual.cells.nu, 1.0 / usual.cells.nv) <= worth * bound);
+  };
+  if (!is_far && !pays()) {
     return nullptr;
   }
   if (spaces_[lane] == nullptr) {
@@ -173,7 +179,8 @@ SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
 CertifiedCells GroupBound::smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
                                            bool may_fall, double enough) const {
   CertifiedCells least = certified;
-  SpaceBound* const space = certified.bound <= enough ? nullptr : space_of(lane, certified);
+  SpaceBound* const space =
+      certified.bound <= enough ? nullptr : space_of(lane, certified, enough > 0);
   if (space == nullptr) {
     return certified;
   }

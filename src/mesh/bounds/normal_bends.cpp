@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/mesh/net_points.hpp"
 
@@ -31,7 +32,7 @@ std::vector<double> basis_values(std::size_t points) {
   std::vector<double> all(kBendSamples * kDerivatives * points);
   for (std::size_t k = 0; k < kBendSamples * kDerivatives; ++k) {
     put_basis(all.data() + k * points, points - 1, k % kDerivatives,
-              static_cast<double>(k / kDerivatives) / (kBendSamples - 1));
+              (static_cast<double>(k / kDerivatives) + 0.5) / kBendSamples);
   }
   return all;
 }
@@ -44,6 +45,32 @@ ControlVector mean(const double* factors, const ControlVector* from, std::size_t
     }
   }
   return sum;
+}
+
+/// A derivative of X - S w for the point S = X / w: the surface's own times w, but for tangents.
+Point3 around(const ControlVector& at, const ControlVector& derivative) {
+  const double share = derivative.x[3] / at.x[3];
+  return {{derivative.x[0] - at.x[0] * share, derivative.x[1] - at.x[1] * share,
+           derivative.x[2] - at.x[2] * share}};
+}
+
+/// The largest second derivative of a side out of its tangents, at samples.
+double side_bend(const double* factors, const ControlVector* first, std::size_t step,
+                 std::size_t count) {
+  std::array<ControlVector, kMostDegree + 1> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    points[i] = first[i * step];
+  }
+  double most = 0;
+  for (std::size_t k = 0; k < kBendSamples; ++k, factors += kDerivatives * count) {
+    const ControlVector at = mean(factors, points.data(), count);
+    const Point3 tangent = around(at, mean(factors + count, points.data(), count));
+    const Point3 second = around(at, mean(factors + 2 * count, points.data(), count));
+    const Point3 bend = cross(tangent, second);
+    const double square = dot(tangent, tangent);
+    most = square > 0 ? std::max(most, std::sqrt(dot(bend, bend) / square) / at.x[3]) : most;
+  }
+  return most;
 }
 
 } // namespace
@@ -69,38 +96,40 @@ NormalBends::NormalBends(const BendSamples& samples, const VectorPatch& patch) {
       return mean(&samples.along_v_[(k % kBendSamples * kDerivatives + of_v) * net.rows],
                   column[of_u].data(), net.rows);
     };
-    ControlVector point = derivative(0, 0);
-    const double weight = patch.rational ? point.x[3] : 1;
-    // Of X - S w for the point S = X / w: the surface's own times w, but for tangents.
-    const auto around = [&](std::size_t of_u, std::size_t of_v) {
-      ControlVector v = derivative(of_u, of_v);
-      for (std::size_t c = 0; patch.rational && c < 3; ++c) {
-        v.x[c] -= point.x[c] / weight * v.x[3];
-      }
-      return Point3{{v.x[0], v.x[1], v.x[2]}};
+    const ControlVector point = derivative(0, 0);
+    const double weight = point.x[3];
+    const auto vector = [&](std::size_t of_u, std::size_t of_v) {
+      return around(point, derivative(of_u, of_v));
     };
-    const Point3 u = around(1, 0);
-    const Point3 v = around(0, 1);
+    const Point3 u = vector(1, 0);
+    const Point3 v = vector(0, 1);
     const Point3 normal = cross(u, v);
     const double length = std::sqrt(dot(normal, normal)) * weight;
     if (length * length > 1e-12 * dot(u, u) * dot(v, v) * weight * weight) {
-      at_[k] = {dot(normal, around(2, 0)) / length, dot(normal, around(1, 1)) / length,
-                dot(normal, around(0, 2)) / length};
+      at_[k] = {dot(normal, vector(2, 0)) / length, dot(normal, vector(1, 1)) / length,
+                dot(normal, vector(0, 2)) / length};
     }
+  }
+  for (const bool end : {false, true}) {
+    const double u =
+        side_bend(samples.along_u_.data(), &net(0, end ? net.rows - 1 : 0), 1, net.columns);
+    const double v = side_bend(samples.along_v_.data(), &net(end ? net.columns - 1 : 0, 0),
+                               net.columns, net.rows);
+    side_uu_ = std::max(side_uu_, u);
+    side_vv_ = std::max(side_vv_, v);
   }
 }
 
-double NormalBends::at(const CellCounts& cells) const {
-  const double u = 1.0 / cells.nu;
-  const double v = 1.0 / cells.nv;
+double NormalBends::at(double u, double v) const {
+  constexpr std::size_t kHalf = kBendSamples / 2;
   const double mixed = 2 * u * v;
-  double most = 0;
-  for (std::size_t from_u = 0; from_u < 2; ++from_u) {
-    for (std::size_t from_v = 0; from_v < 2; ++from_v) {
+  double most = std::max(side_uu_ * u * u, side_vv_ * v * v);
+  for (std::size_t from_u = 0; from_u < kBendSamples; from_u += kHalf) {
+    for (std::size_t from_v = 0; from_v < kBendSamples; from_v += kHalf) {
       double rising = 0;
       double falling = 0;
-      for (std::size_t i = from_u; i <= from_u + 1; ++i) {
-        for (std::size_t j = from_v; j <= from_v + 1; ++j) {
+      for (std::size_t i = from_u; i < from_u + kHalf; ++i) {
+        for (std::size_t j = from_v; j < from_v + kHalf; ++j) {
           const Bend& bend = at_[i * kBendSamples + j];
           const double uu = bend.uu * u * u;
           const double vv = bend.vv * v * v;
@@ -117,14 +146,14 @@ double NormalBends::at(const CellCounts& cells) const {
 }
 
 double NormalBends::fewest(double distance) const {
-  Bend largest;
-  for (const Bend& bend : at_) {
-    largest = {std::max(largest.uu, std::fabs(bend.uu)), std::max(largest.uv, std::fabs(bend.uv)),
-               std::max(largest.vv, std::fabs(bend.vv))};
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = -4; k <= 4; ++k) { // cells of several shapes
+    const double shape = std::scalbn(1.0, k);
+    const double cells = at(1 / shape, shape) / distance;
+    const double root = std::sqrt(cells);
+    least = std::min(least, std::max(root * shape, 1.0) * std::max(root / shape, 1.0));
   }
-  const double limit = 8 * distance;
-  return std::max({2 * (std::sqrt(largest.uu * largest.vv) + largest.uv) / limit,
-                   std::sqrt(largest.uu / limit), std::sqrt(largest.vv / limit)});
+  return least;
 }
 
 } // namespace simdbezier::detail

@@ -12,10 +12,9 @@
 
 namespace simdbezier::detail {
 
-inline constexpr std::size_t kBendSamples = 3; ///< in each direction
+inline constexpr std::size_t kBendSamples = 8; ///< in each direction, half of them in each half
 
-/// Bernstein polynomials and their first two derivatives at the ends and the middle of each
-/// direction.
+/// Bernstein polynomials and their first two derivatives in the middles of as many equal parts.
 class BendSamples {
 public:
   BendSamples() = default;
@@ -38,9 +37,9 @@ class NormalBends {
 public:
   NormalBends(const BendSamples& samples, const VectorPatch& patch);
 
-  /// About how far the triangles of small cells are from the surface, with the better diagonal in
-  /// each quarter.
-  [[nodiscard]] double at(const CellCounts& cells) const;
+  /// About how far the triangles of cells with such small steps in u and v are from the surface,
+  /// with the better diagonal in each quarter.
+  [[nodiscard]] double at(double u, double v) const;
   /// About the number of small cells that have this distance.
   [[nodiscard]] double fewest(double distance) const;
 
@@ -52,6 +51,8 @@ private:
     double vv = 0;
   };
   std::array<Bend, kBendSamples * kBendSamples> at_; ///< [u][v]
+  double side_uu_ = 0;                               ///< of sides, out of their tangents
+  double side_vv_ = 0;
 };
 
 } // namespace simdbezier::detail

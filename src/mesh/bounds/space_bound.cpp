@@ -16,14 +16,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A vertex is off by so much of the parameter's range.
 constexpr double kVertexRounding = kStepRounding / 2;
+/// A bound may be above what points of the surface ask for by this factor.
+constexpr double kCloseToFound = 1.02;
 /// What sides add may be above that by this share of what is enough for the cell.
 constexpr double kSideShare = 1.0 / 16;
 /// Of one cell; what is left then is bounded by its control points.
-constexpr std::size_t kMostCellHalvings = 2000;
-constexpr std::size_t kMostSideHalvings = 200;
+constexpr std::size_t kMostCellHalvings = 150;
+constexpr std::size_t kMostSideHalvings = 1000;
 
 /// Of the time that a piece takes, what a cell takes that is nowhere larger than the tolerance.
 constexpr double kSmallCell = 1.0 / 64;
+
+/// What roundings of parameters may count as, of a bound on cells that have been looked at.
+constexpr double kLittleMotion = 1.0 / 256;
 
 /// The largest second difference of some rows in channels [begin, end).
 double largest_bend(const double* points, std::size_t count, std::size_t step, std::size_t lines,
@@ -73,7 +78,8 @@ double weight_spread(const VectorPatch& patch) {
 
 SpaceBound::SpaceBound(const VectorPatch& patch, RateFlags flags, const PatchTurn& turn)
     : turn_(turn), columns_(patch.net.columns), rows_(patch.net.rows), flags_(flags),
-      work_(static_cast<double>(columns_ * columns_ * rows_ * rows_)) {
+      work_(static_cast<double>(columns_ * columns_ * rows_ * rows_)),
+      spread_(weight_spread(patch)) {
   double heaviest = 0;
   for (const ControlVector& v : patch.net.at) {
     net_.insert(net_.end(), v.x, v.x + kChannels);
@@ -85,10 +91,9 @@ SpaceBound::SpaceBound(const VectorPatch& patch, RateFlags flags, const PatchTur
 
 void SpaceBound::take_row(std::uint32_t j, std::uint32_t nv) {
   strip_ = net_;
-  for (std::size_t i = 0; i < columns_; ++i) {
-    cut_curve(strip_.data() + i * kChannels, rows_, columns_ * kChannels, kChannels,
-              static_cast<double>(j) / nv, static_cast<double>(j + 1) / nv);
-  }
+  const std::size_t row = columns_ * kChannels;
+  cut_curve(strip_.data(), rows_, row, row, static_cast<double>(j) / nv,
+            static_cast<double>(j + 1) / nv);
 }
 
 void SpaceBound::take_cell(std::uint32_t i, std::uint32_t nu) {
@@ -97,10 +102,20 @@ void SpaceBound::take_cell(std::uint32_t i, std::uint32_t nu) {
     cut_curve(cell_.data() + j * columns_ * kChannels, columns_, kChannels, kChannels,
               static_cast<double>(i) / nu, static_cast<double>(i + 1) / nu);
   }
+  radius_ = radius();
 }
 
-/// How far roundings of parameters move the cell's corners into it.
-double SpaceBound::motion(std::uint32_t i, std::uint32_t j, const CellCounts& cells) const {
+/// How far roundings of parameters move the cell's corners into it. What is little may be above
+/// that.
+double SpaceBound::motion(std::uint32_t i, std::uint32_t j, const CellCounts& cells,
+                          double little) const {
+  // Corners are means of control points, which but for one have weights below this in all.
+  const double steps = kVertexRounding * (static_cast<double>(columns_ * cells.nu) +
+                                          static_cast<double>(rows_ * cells.nv));
+  const double rough = 2 * radius_ * spread_ * steps / (1 - steps);
+  if (steps < 1 && rough <= little) {
+    return rough;
+  }
   double most = 0;
   for (std::size_t corner = 0; corner < kPatchCorners; ++corner) {
     const bool high_u = corner % 2 != 0;
@@ -123,9 +138,14 @@ double SpaceBound::motion(std::uint32_t i, std::uint32_t j, const CellCounts& ce
 
 /// What the distances of a piece come to: docs/tessellation.md has the cases.
 double SpaceBound::Look::total(const GraphDistance& piece) const {
-  const double shift = std::max(cut.outside, cut.inside);
-  const double across = std::max(piece.outside + cut.inside, shift);
-  return std::max(sides, distance(piece, piece.outside + shift, across));
+  const double across = std::max(piece.outside + cut.inside, shift());
+  return std::max(sides, distance(piece, piece.outside + shift(), across));
+}
+
+/// What those of a piece of a side come to.
+double SpaceBound::Look::side_total(const GraphDistance& piece) const {
+  const double far = piece.inside + shift();
+  return distance(piece, far, far);
 }
 
 /// Of points that far across the axis, where the graph may have been that far along it.
@@ -172,7 +192,7 @@ double SpaceBound::bound_piece(Look& look, std::size_t level, std::size_t depth)
   if (look.found > look.stop) {
     return kInfinity;
   }
-  if (total <= kCloseEnough * look.found || depth == kDeepest ||
+  if (total <= kCloseToFound * look.found || depth == kDeepest ||
       look.halvings == kMostCellHalvings) {
     look.enough = std::max(look.enough, total);
     return total;
@@ -190,28 +210,27 @@ double SpaceBound::bound_piece(Look& look, std::size_t level, std::size_t depth)
   return most <= look.stop ? std::max(most, bound_piece(look, level, depth + 1)) : most;
 }
 
-/// Of a piece of a side.
-GraphDistance SpaceBound::bound_side(const Look& look, SideLook& side, std::size_t level,
+/// Of a piece of a side. What neighbours have on sides is known before the others are looked at.
+GraphDistance SpaceBound::bound_side(Look& look, SideLook& side, std::size_t level,
                                      std::size_t depth) {
   double* const points = piece(level);
   const GraphDistance measured = look.graph.from_side(side.side, points, side.points);
-  side.found.include(look.graph.from_side(side.side, points, 1));
-  const GraphDistance& found = side.found;
-  const auto is_close = [&](double bound, double least, double share) {
-    return bound <= std::max(look.enough * share, kCloseEnough * least);
-  };
-  const auto are_close = [&](double share) {
-    return is_close(measured.above, found.above, share) &&
-           is_close(measured.below, found.below, share);
-  };
   if (!side.is_cut && !(measured.inside > 0)) {
     return {}; // nothing is passed on the way to the segment
   }
-  const bool close =
-      is_close(measured.inside, found.inside, kSideShare) &&
-      (side.is_cut ? is_close(measured.outside, found.outside, kSideShare) && are_close(kSideShare)
-                   : are_close(0.5));
-  if (close || depth == kDeepest || side.halvings == kMostSideHalvings) {
+  const auto size = [&](const GraphDistance& d) {
+    return side.is_cut ? std::max({d.above, d.below, d.outside / 4, d.inside / 4})
+                       : look.side_total(d);
+  };
+  const double total = size(measured);
+  const double enough = side.is_cut ? look.enough * kSideShare : std::max(look.enough, look.sides);
+  bool close = total <= enough || depth == kDeepest || side.halvings == kMostSideHalvings;
+  if (!close) {
+    side.found = std::max(side.found, size(look.graph.from_side(side.side, points, 1)));
+    close = total <= (side.is_cut ? kCloseEnough : kCloseToFound) * side.found;
+  }
+  if (close) {
+    look.sides = std::max(look.sides, side.is_cut ? 0 : total);
     return measured;
   }
   ++side.halvings;
@@ -221,26 +240,29 @@ GraphDistance SpaceBound::bound_side(const Look& look, SideLook& side, std::size
   return most;
 }
 
-/// All sides of the cell in the first level's place.
+/// All sides of the cell in the first level's place, those that neighbours may cut before others.
 void SpaceBound::bound_sides(const bool (&is_cut)[4], bool falling, Look& look) {
   const std::size_t row = columns_ * kChannels;
   const double* const net = piece(0);
   const double* const first[4] = {net, net + row - kChannels, net + (rows_ - 1) * row, net};
-  GraphDistance all;
-  for (std::size_t k = 0; k < 4; ++k) { // at v = 0, u = 1, v = 1, u = 0
-    const bool along_u = k % 2 == 0;
-    SideLook side{(falling ? k + 3 : k) % 4, along_u ? columns_ : rows_, is_cut[k]};
-    for (std::size_t i = 0; i < side.points; ++i) {
-      std::copy_n(first[k] + i * (along_u ? kChannels : row), kChannels, piece(1) + i * kChannels);
+  for (const bool cut : {true, false}) {
+    for (std::size_t k = 0; k < 4; ++k) { // at v = 0, u = 1, v = 1, u = 0
+      if (is_cut[k] != cut) {
+        continue;
+      }
+      const bool along_u = k % 2 == 0;
+      SideLook side{(falling ? k + 3 : k) % 4, along_u ? columns_ : rows_, cut};
+      for (std::size_t i = 0; i < side.points; ++i) {
+        std::copy_n(first[k] + i * (along_u ? kChannels : row), kChannels,
+                    piece(1) + i * kChannels);
+      }
+      const GraphDistance found = bound_side(look, side, 1, 1);
+      if (cut) {
+        look.cut.include(found);
+      }
     }
-    const GraphDistance found = bound_side(look, side, 1, 1);
-    all.include(found);
-    if (is_cut[k]) {
-      look.cut.include(found);
-    }
+    look.sides = std::max(look.sides, look.side_total(look.cut));
   }
-  const double shift = std::max(look.cut.outside, look.cut.inside);
-  look.sides = look.distance(all, all.inside + shift, all.inside + shift);
 }
 
 /// The middle of the cell in the first level's place.
@@ -317,9 +339,8 @@ double SpaceBound::bound_cell(std::uint32_t i, std::uint32_t j, const CellCounts
       std::copy_n(forced, 2, ways);
     }
   }
-  const double small = radius();
-  if (small <= enough) {
-    return small;
+  if (radius_ <= enough) {
+    return radius_;
   }
   double most = 0;
   for (unsigned way = 0; way < 2; ++way) {
@@ -327,7 +348,7 @@ double SpaceBound::bound_cell(std::uint32_t i, std::uint32_t j, const CellCounts
       most = std::max(most, bound_triangles(i, j, cells, way == 1, std::max(enough, doubt_), stop));
     }
   }
-  return std::min(most, small);
+  return std::min(most, radius_);
 }
 
 double SpaceBound::bound_range(const Range& u, const Range& v, const CellCounts& cells,
@@ -340,11 +361,11 @@ double SpaceBound::bound_range(const Range& u, const Range& v, const CellCounts&
     for (std::uint32_t i = u.begin; i < u.end; ++i) {
       take_cell(i, cells.nu);
       const double least = std::max(enough, most);
-      if (const double size = 2 * radius(); size <= least) { // wherever corners move in it
+      if (const double size = 2 * radius_; size <= least) { // wherever corners move in it
         most = std::max(most, size);
         looked_at_ += kSmallCell;
       } else {
-        moved = std::max(moved, motion(i, j, cells));
+        moved = larger_bound(moved, motion(i, j, cells, most * kLittleMotion));
         most = std::max(most, bound_cell(i, j, cells, falling, least, stop));
       }
       if (!(most + moved <= stop && looked_at_ <= most_looks_)) {

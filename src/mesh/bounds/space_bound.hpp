@@ -2,6 +2,7 @@
 // move along the surface.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "src/mesh/bounds/bound_parts.hpp"
 #include "src/mesh/bounds/cell_graph.hpp"
+#include "src/mesh/bounds/normal_bends.hpp"
 #include "src/mesh/bounds/vector_patch.hpp"
 
 namespace simdbezier::detail {
@@ -29,8 +31,9 @@ public:
   CertifiedCells certify(const CellCounts& cells, double stop, double enough = 0,
                          bool may_fall = true);
   /// Few cells that hold, but fewer than `usual`; with an infinite bound where there are none.
-  /// expected: about how many, or infinity where weights are so far apart that nobody knows.
-  CertifiedCells choose(const CellCounts& usual, double stop, double expected, std::uint32_t most);
+  /// bends: those of the patch, which tell how many that may be.
+  CertifiedCells choose(const CellCounts& usual, double t, const NormalBends& bends,
+                        std::uint32_t most);
 
 private:
   SpaceBound(const PatchTurn& turn, const VectorPatch& patch, RateFlags flags)
@@ -52,15 +55,18 @@ private:
     double found = 0;       ///< what points of the surface alone ask for
     std::size_t halvings = 0;
 
+    /// How far such vertices move points across the axis.
+    [[nodiscard]] double shift() const { return std::max(cut.outside, cut.inside); }
     [[nodiscard]] double total(const GraphDistance& piece) const;
+    [[nodiscard]] double side_total(const GraphDistance& piece) const;
     [[nodiscard]] double distance(const GraphDistance& piece, double along, double across) const;
   };
   /// One side of a cell.
   struct SideLook {
     std::size_t side; ///< as the graph counts them
     std::size_t points;
-    bool is_cut; ///< whether neighbours may have vertices on it
-    GraphDistance found = {};
+    bool is_cut;      ///< whether neighbours may have vertices on it
+    double found = 0; ///< what points of the side alone ask for
     std::size_t halvings = 0;
   };
   /// Parameters where a cell with either diagonal did not hold.
@@ -78,13 +84,13 @@ private:
   double bound_triangles(std::uint32_t i, std::uint32_t j, const CellCounts& cells, bool falling,
                          double enough, double stop);
   double bound_piece(Look& look, std::size_t level, std::size_t depth);
-  GraphDistance bound_side(const Look& look, SideLook& side, std::size_t level, std::size_t depth);
+  GraphDistance bound_side(Look& look, SideLook& side, std::size_t level, std::size_t depth);
   void bound_sides(const bool (&is_cut)[4], bool falling, Look& look);
   const double* turned_middle();
   bool halve_along_u(const double* net, bool across) const;
   void take_row(std::uint32_t j, std::uint32_t nv);
   void take_cell(std::uint32_t i, std::uint32_t nu);
-  double motion(std::uint32_t i, std::uint32_t j, const CellCounts& cells) const;
+  double motion(std::uint32_t i, std::uint32_t j, const CellCounts& cells, double little) const;
   /// Nets of pieces of the cell, the turned cell's being the first.
   [[nodiscard]] double* piece(std::size_t level) { return pieces_.data() + level * net_.size(); }
 
@@ -95,10 +101,12 @@ private:
   std::size_t rows_;
   RateFlags flags_;
   double work_;
+  double spread_; ///< of weights
   double doubt_;
   std::vector<double> net_;    ///< homogeneous points, [j][i][4]
   std::vector<double> strip_;  ///< a row of cells
   std::vector<double> cell_;   ///< one cell
+  double radius_ = 0;          ///< of the cell
   std::vector<double> pieces_; ///< in the axes of a graph
   std::vector<Miss> misses_;   ///< the latest first
   double looked_at_ = 0;       ///< pieces

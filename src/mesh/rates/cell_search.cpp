@@ -240,7 +240,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cel
     CellCounts fewer = cells[lane];
     while (std::max(fewer.nu, fewer.nv) <= most && fewer.product() < raised[lane].cells.product()) {
       const double stop = in_patch(lane, t[lane]);
-      SpaceBound* const space = space_of(lane, raised[lane]);
+      SpaceBound* const space = space_of(lane, raised[lane], true);
       if (space == nullptr) {
         break;
       }
@@ -286,12 +286,15 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
   }
   Lanes<CertifiedCells> chosen = Search(*this, t, true).run(trials);
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    SpaceBound* const space = space_of(lane, chosen[lane], kFewestLooked);
+    SpaceBound* const space = space_of(lane, chosen[lane], true, kFewestLooked);
     if (space != nullptr) {
       const double stop = in_patch(lane, t[lane]);
-      const double expected = bends_[lane] ? 4 * bends_[lane]->fewest(stop) + 1
-                                           : std::numeric_limits<double>::infinity();
-      take_if_close(lane, space->choose(chosen[lane].cells, stop, expected, most), chosen[lane]);
+      take_if_close(lane, space->choose(chosen[lane].cells, stop, *bends_[lane], most),
+                    chosen[lane]);
+    }
+    if ((beyond >> lane & 1) != 0 && !(chosen[lane].bound <= t[lane]) &&
+        at_most[lane].bound <= t[lane]) {
+      chosen[lane] = at_most[lane];
     }
   }
   return chosen;

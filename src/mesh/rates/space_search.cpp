@@ -5,6 +5,7 @@
 
 #include <simdbezier/mesh_layout.hpp>
 
+#include "src/mesh/bounds/chord_distance.hpp"
 #include "src/mesh/bounds/space_bound.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/runtime/sort.hpp"
@@ -22,6 +23,13 @@ constexpr double kManyCells = 4096;
 /// Pieces may be looked at so many times for each cell that is expected, and at first.
 constexpr double kLooksForEach = 8;
 constexpr double kFirstLooks = 512;
+/// What is found keeps this share of a tolerance, so that certify(), which comes as close to the
+/// distance as that, does not find more than the tolerance. Cells that second derivatives along the
+/// normal expect to be above the other share are passed over.
+constexpr double kSearchShare = 0.99;
+constexpr double kBendShare = 0.95;
+/// But not where weights are so far apart that a bend may be far smaller than a cell.
+constexpr double kUnknownSpread = 0x1p10;
 
 } // namespace
 
@@ -102,12 +110,26 @@ bool SpaceBound::misses(const CellCounts& cells, double stop) {
   return found;
 }
 
-CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, double expected,
+CertifiedCells SpaceBound::choose(const CellCounts& usual, double t, const NormalBends& bends,
                                   std::uint32_t most) {
+  const double stop = kSearchShare * t;
+  const bool is_far = spread_ > kLeastSpread;
+  const double expected =
+      is_far ? std::numeric_limits<double>::infinity() : 4 * bends.fewest(stop) + 1;
+  // A few cells in a direction are not small, but no better than some more.
+  const auto step = [&](std::uint32_t n) {
+    return 1.0 / static_cast<double>(std::max<std::size_t>({n, columns_, rows_}));
+  };
+  const bool is_known = spread_ < kUnknownSpread && std::max(usual.nu, usual.nv) < most;
+  const double enough = stop * (is_known ? kSearchShare : 0.5);
+  const auto are_too_few = [&](const CellCounts& cells) {
+    const CellCounts of = turn_.turned(cells);
+    return is_known && bends.at(step(of.nu), step(of.nv)) > kBendShare * stop;
+  };
   const auto count = [](std::uint32_t k) { return k < 8 ? k : (8 + k % 8) << (k / 8 - 1); };
   looked_at_ = 0;
-  const bool needs_it = std::max(usual.nu, usual.nv) >= most ||
-                        (std::isinf(expected) && usual.product() >= kManyCells);
+  const bool needs_it =
+      std::max(usual.nu, usual.nv) >= most || (is_far && usual.product() >= kManyCells);
   most_looks_ = needs_it
                     ? kLastWork / work_
                     : std::min(kMostWork / work_,
@@ -123,7 +145,7 @@ CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, double e
         if (cells.product() >= std::min(all, 2 * least)) {
           break;
         }
-        if (cells.product() >= least) {
+        if (cells.product() >= least && !are_too_few(cells)) {
           candidates.push_back(cells);
         }
       }
@@ -136,7 +158,7 @@ CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, double e
         return uncertified(usual);
       }
       if (!misses(cells, stop)) {
-        const CertifiedCells found = look_at(cells, stop, stop / 2, true);
+        const CertifiedCells found = look_at(cells, stop, enough, true);
         if (found.bound <= stop) {
           return {turn_.turned(cells), found.bound, found.diagonals};
         }
