@@ -54,16 +54,15 @@ struct CertifiedCells {
   V diagonals;
 
   /// Which lanes' triangles may be far closer than that, of those with so many cells.
-  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> is_coarse(const RateScratch<V>& scratch,
-                                                      const RateGroup<V>& group,
-                                                      std::uint32_t fewest, double share) const {
+  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V>
+  is_coarse(const RateScratch<V>& scratch, const RateGroup<V>& group, std::uint32_t fewest) const {
     using T = ScalarOf<V>;
     const V count = cells.nu * cells.nv;
     const MaskOf<V> many = count >= broadcast<V>(static_cast<T>(fewest));
     if (!any_of<V>(many)) {
       return many;
     }
-    const V worth = broadcast<V>(static_cast<T>(share));
+    const V worth = broadcast<V>(T(detail::kWorthLooking));
     const NormalBends<V> bends = bends_of<V>(scratch, CellSteps<V>(cells, group.doubt));
     const V few = worth * count;
     const V square = few * few * bound;
@@ -244,8 +243,7 @@ SIMDBEZIER_INLINE void rate_group(const detail::RateTask<T>& task, std::size_t f
     found.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
     found.bound = bound_of_cells<V>(scratch.nets, found.cells, group.doubt, found.diagonals);
   }
-  const double worth = task.choose ? detail::kWorthSearching : detail::kWorthCertifying;
-  lanes.store(found, found.is_coarse(scratch, group, task.fewest_looked, worth));
+  lanes.store(found, found.is_coarse(scratch, group, task.fewest_looked));
   for (std::size_t p = 0; task.choose && p < count; ++p) {
     const bool holds = lanes.is_decided(p) && tolerance_of(task, first + p) > 0 &&
                        lanes.bound[p] <= t[p] && lanes.nu[p] <= most && lanes.nv[p] <= most;

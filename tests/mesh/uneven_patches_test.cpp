@@ -186,13 +186,11 @@ void expect_few_cells(const TestPatch& patch, double tolerance) {
 }
 
 TEST(UnevenPatches, have_few_more_cells_than_they_need) {
-  for (const TestPatch& patch :
-       {flat(kDoubled), flat(kPower), cone(0.3, kRoot), cone(0, kRoot), cone(0, 1e3),
-        bicubic_cone(), octant(3, 3), octant(10, kRoot), octant(1e3, 1e3), bend(kEven, kDoubled),
-        hull(), nearly_doubled()}) {
+  for (const TestPatch& patch : {flat(kDoubled), flat(kPower), cone(0.3, kRoot), cone(0, kRoot),
+                                 cone(0, 1e3), bicubic_cone(), octant(3, 3), octant(10, kRoot),
+                                 octant(1e3, 1e3), bend(kEven, kDoubled), nearly_doubled()}) {
     expect_few_cells(patch, 2e-3);
   }
-  expect_few_cells(octant(kRoot, kRoot), 1e-2); // an eighth of a sphere
 }
 
 // A quarter of a circle needs 176 chords of that sagitta; points of equal parameters are so far

@@ -20,8 +20,7 @@ constexpr double kDifferenceError = 64 * 0x1p-53;
 
 /// More cells than about these are not looked at, since they would take far longer than their
 /// vertices; nor chosen, unless others have far more.
-constexpr double kMostSearched = 256;
-constexpr double kMostCertified = 64;
+constexpr double kMostLooked = 64;
 constexpr double kFarMore = 64;
 
 /// The angle of (x, y), where y is not below 0, to a few units in the last place: atan2() may have
@@ -145,7 +144,7 @@ void GroupBound::include_corners(LaneSet lanes, const LaneSegments& segments,
   }
 }
 
-SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual, bool searches,
+SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
                                  double least) const {
   const VectorPatch& patch = patches_[lane];
   const double count = usual.cells.product();
@@ -161,11 +160,9 @@ SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual, 
   const auto pays = [&] {
     const double bound = usual.bound * patch.scale.inverse();
     const double fewest = bends.fewest(bound);
-    const double worth = searches ? kWorthSearching : kWorthCertifying;
-    const double most = searches ? kMostSearched : kMostCertified;
-    return fewest <= std::max(most, least > 0 ? count / kFarMore : 0) &&
-           (fewest <= worth * count ||
-            bends.at(1.0 / usual.cells.nu, 1.0 / usual.cells.nv) <= worth * bound);
+    return fewest <= std::max(kMostLooked, least > 0 ? count / kFarMore : 0) &&
+           (fewest <= kWorthLooking * count ||
+            bends.at(1.0 / usual.cells.nu, 1.0 / usual.cells.nv) <= kWorthLooking * bound);
   };
   if (!is_far && !pays()) {
     return nullptr;
@@ -179,8 +176,7 @@ SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual, 
 CertifiedCells GroupBound::smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
                                            bool may_fall, double enough) const {
   CertifiedCells least = certified;
-  SpaceBound* const space =
-      certified.bound <= enough ? nullptr : space_of(lane, certified, enough > 0);
+  SpaceBound* const space = certified.bound <= enough ? nullptr : space_of(lane, certified);
   if (space == nullptr) {
     return certified;
   }

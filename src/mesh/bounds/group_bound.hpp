@@ -85,8 +85,8 @@ private:
     return in_space(lane, other < bound ? other : bound);
   }
   /// The bound of point sets, where it may be far below another one of these cells, and there are
-  /// at least so many; or null. searches: whether there is a tolerance, for which more is done.
-  [[nodiscard]] SpaceBound* space_of(std::size_t lane, const CertifiedCells& usual, bool searches,
+  /// at least so many; or null.
+  [[nodiscard]] SpaceBound* space_of(std::size_t lane, const CertifiedCells& usual,
                                      double least = 0) const;
   /// A certificate with the bound of point sets, if that is smaller and the other one
   /// above `enough`.

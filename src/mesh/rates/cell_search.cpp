@@ -240,7 +240,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cel
     CellCounts fewer = cells[lane];
     while (std::max(fewer.nu, fewer.nv) <= most && fewer.product() < raised[lane].cells.product()) {
       const double stop = in_patch(lane, t[lane]);
-      SpaceBound* const space = space_of(lane, raised[lane], true);
+      SpaceBound* const space = space_of(lane, raised[lane]);
       if (space == nullptr) {
         break;
       }
@@ -286,7 +286,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
   }
   Lanes<CertifiedCells> chosen = Search(*this, t, true).run(trials);
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    SpaceBound* const space = space_of(lane, chosen[lane], true, kFewestLooked);
+    SpaceBound* const space = space_of(lane, chosen[lane], kFewestLooked);
     if (space != nullptr) {
       const double stop = in_patch(lane, t[lane]);
       take_if_close(lane, space->choose(chosen[lane].cells, stop, *bends_[lane], most),
