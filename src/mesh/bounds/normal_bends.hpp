@@ -12,7 +12,7 @@
 
 namespace simdbezier::detail {
 
-inline constexpr std::size_t kBendSamples = 8; ///< in each direction, half of them in each half
+inline constexpr std::size_t kBendSamples = 4; ///< in each direction, half of them in each half
 
 /// Bernstein polynomials and their first two derivatives in the middles of as many equal parts.
 class BendSamples {
