@@ -7,7 +7,7 @@ import { join } from 'node:path';
 export const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) => existsSync(path));
 
 export class Chromium {
-  #process; #folder; #next = 0; #waiting = new Map(); #session;
+  #process; #folder; #ended; #next = 0; #waiting = new Map(); #session;
   messages = []; // what pages and their workers wrote to their consoles, and exceptions
 
   static async start() {
@@ -16,6 +16,11 @@ export class Chromium {
     browser.#process = spawn(CHROMIUM, ['--headless=new', '--no-sandbox', '--disable-dev-shm-usage', '--remote-debugging-pipe', '--no-first-run',
       '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', `--user-data-dir=${browser.#folder}`, 'about:blank'],
     { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
+    // It may end before it has answered, also when it was asked to.
+    browser.#ended = new Promise((resolve) => browser.#process.once('exit', resolve)).then(() => {
+      for (const { reject } of browser.#waiting.values()) reject(new Error('Chromium has ended'));
+    });
+    browser.#process.stdio[3].on('error', () => {}); // it has ended, which the line above says
     let rest = '';
     browser.#process.stdio[4].setEncoding('utf8').on('data', (text) => {
       const parts = (rest + text).split('\0');
@@ -68,10 +73,8 @@ export class Chromium {
   }
 
   async stop() {
-    const ended = new Promise((resolve) => this.#process.once('exit', resolve));
-    await this.call('Browser.close').catch(() => {});
-    this.#process.kill();
-    await ended;
+    this.call('Browser.close').catch(() => {});
+    await this.#ended;
     rmSync(this.#folder, { recursive: true, force: true, maxRetries: 5 });
   }
 }
