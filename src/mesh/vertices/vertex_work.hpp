@@ -153,13 +153,13 @@ private:
   }
   void put_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows) const noexcept {
     const PieceTarget<T> to = target_at(grid.patch, row);
-    const std::size_t columns = grid.columns; // which stores cannot change
+    const std::size_t columns = grid.columns; // a copy, which no store below can change
     const VertexSample<T>* const first = grid.first + (row + 1) * columns + 1;
     const auto put = [&](const Planes<T>& planes, const T* from) {
       if (!planes.wanted()) {
         return;
       }
-      // What is not wanted goes where x goes, before it.
+      // A component that is not wanted is stored where x is stored next.
       T* x = planes.component[0];
       T* y = planes.component[1] != nullptr ? planes.component[1] : x;
       T* z = planes.component[2] != nullptr ? planes.component[2] : x;
