@@ -25,7 +25,8 @@ simdbezier_add_sources(splines O3 evaluate_spline_samples.cpp evaluate_splines.c
 simdbezier_add_sources(output O3 delivery.cpp output_check.cpp)
 simdbezier_add_sources(output O2 output_plan.cpp)
 simdbezier_add_sources(runtime O3 batch.cpp cache_sizes.cpp dispatch.cpp fp_environment.cpp
-                       instruction_sets.cpp status.cpp threads_${SIMDBEZIER_THREADS}.cpp)
+                       instruction_sets.cpp status.cpp threads_${SIMDBEZIER_THREADS}.cpp
+                       useful_threads.cpp)
 simdbezier_add_sources(mesh/topology O3 entanglement.cpp fit.cpp
                        forced_diagonals.cpp net_corners.cpp orientation.cpp snapping.cpp
                        topology.cpp)

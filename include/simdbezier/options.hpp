@@ -61,8 +61,10 @@ struct RunOptions {
   /// 1: the calling thread alone. Such a call starts no thread, enters no OpenMP region, and always
   /// returns. 0 or less: one thread for every 20 microseconds of estimated work, up to OpenMP's
   /// default number (without OpenMP: the number of cores); inside of a parallel region the calling
-  /// thread alone. The estimate depends only on the shape of the call. Larger numbers: so many
-  /// threads, but never more than the largest of 16, two per core and OpenMP's default.
+  /// thread alone. The estimate depends only on the shape of the call. If earlier calls of the same
+  /// thread have shown that their threads wait for cores that others use, it takes fewer for 0.1 to
+  /// 1.6 s, then tries again. Larger numbers: so many threads, but never more than the largest of
+  /// 16, two per core and OpenMP's default.
   ///
   /// If the system refuses OpenMP a thread (ulimit -u, a container's limit of processes, no memory
   /// for a stack), GNU's runtime prints a line on stderr and calls exit(1), which no library can

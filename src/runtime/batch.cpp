@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/runtime/useful_threads.hpp"
+
 namespace simdbezier {
 namespace {
 
 thread_local Isa executed = Isa::automatic;
+thread_local detail::UsefulThreads useful_threads;
 
 } // namespace
 
@@ -21,7 +24,8 @@ int thread_count(int requested, std::size_t units, std::size_t duration) noexcep
   if (requested == 1 || shares <= 1) {
     return 1;
   }
-  const int most = std::min(requested > 0 ? requested : default_threads(), most_threads());
+  const int wanted = requested > 0 ? requested : useful_threads.of(default_threads(), elapsed_time);
+  const int most = std::min(wanted, most_threads());
   return static_cast<int>(std::min(shares, static_cast<std::size_t>(std::max(most, 1))));
 }
 
@@ -49,8 +53,16 @@ void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept {
     return;
   }
   const CallersFpEnvironment environment; // of the threads that are started
-  auto run = [&](int worker, int workers) { run_share(units, worker, workers, body); };
+  std::atomic<std::int64_t> work = 0;
+  auto run = [&](int worker, int workers) {
+    const std::int64_t begin = processor_time();
+    run_share(units, worker, workers, body);
+    work += processor_time() - begin;
+  };
+  const std::int64_t begin = elapsed_time();
   run_on_threads(threads, ThreadBody(run));
+  const std::int64_t end = elapsed_time();
+  useful_threads.note(threads, work, end - begin, end);
 }
 
 } // namespace detail

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "src/runtime/threads.hpp"
+#include "src/runtime/useful_threads.hpp"
 #include "tests/support/environment.hpp"
 
 namespace simdbezier::detail {
@@ -61,14 +63,17 @@ TEST(SIMDBEZIER_BACK_END, one_thread_is_the_callers) {
   for_blocks(10, 1, BlockBody(body));
 }
 
-/// In a region of several threads a call that names no number has one.
+/// In a region of several threads a call that names no number has one. The thread is a new one,
+/// which has not found out yet how many are of use.
 TEST(SIMDBEZIER_BACK_END, calls_within_a_call_have_one_thread) {
-  const int threads = thread_count(2, 2, kLong);
-  auto body = [&](int, std::size_t, std::size_t) {
-    EXPECT_EQ(thread_count(0, 100, kLong), threads == 1 ? default_threads() : 1);
-  };
-  for_blocks(2, threads, BlockBody(body));
-  EXPECT_EQ(thread_count(0, 1000000, kLong), default_threads());
+  std::thread([] {
+    const int threads = thread_count(2, 2, kLong);
+    auto body = [&](int, std::size_t, std::size_t) {
+      EXPECT_EQ(thread_count(0, 100, kLong), threads == 1 ? default_threads() : 1);
+    };
+    for_blocks(2, threads, BlockBody(body));
+    EXPECT_EQ(thread_count(0, 1000000, kLong), default_threads());
+  }).join();
 }
 
 /// Each works in the library's environment, and has the caller's again when the caller uses it.
@@ -143,16 +148,64 @@ TEST(SIMDBEZIER_BACK_END, threads_are_started_for_work_that_is_worth_it) {
       {2, 1000, 0, 2},          {3, 2, 0, 2},
       {kMany, 1000, 0, 1000},
   };
-  for (const Case& c : cases) {
-    const int most = c.requested > 0 ? most_threads() : default_threads();
-    EXPECT_EQ(thread_count(c.requested, c.units, c.duration), std::min(c.expected, most))
-        << c.requested << " requested, " << c.units << " units, " << c.duration << " ns";
-  }
+  std::thread([&cases] { // one that has not found out yet how many are of use
+    for (const Case& c : cases) {
+      const int most = c.requested > 0 ? most_threads() : default_threads();
+      EXPECT_EQ(thread_count(c.requested, c.units, c.duration), std::min(c.expected, most))
+          << c.requested << " requested, " << c.units << " units, " << c.duration << " ns";
+    }
+  })
+      .join();
   EXPECT_EQ(duration_of(kLong / 2, 3), kLong); // more than can be counted
 }
 
 TEST(SIMDBEZIER_BACK_END, more_threads_than_are_of_use_are_not_started) {
   EXPECT_LE(thread_count(1 << 20, 1 << 20, kLong), most_threads());
+}
+
+/// Calls of a machine whose other processes come and go, in milliseconds: what each one's threads
+/// did, and how many threads the next one may take.
+TEST(SIMDBEZIER_BACK_END, threads_that_wait_for_processors_are_not_started) {
+  struct Call {
+    std::int64_t begin;
+    int threads;
+    double work; ///< processor time of all threads
+    std::int64_t elapsed;
+    int next; ///< of 8
+  };
+  const Call calls[] = {
+      {0, 8, 2, 3, 8},       // threads have to be started first
+      {3, 8, 40, 6, 8},      // 6.7 of 8 are at work
+      {10, 8, 12, 4, 8},     // 3 of 8
+      {14, 8, 0.5, 1, 8},    // too short to be judged by itself
+      {15, 8, 8, 2, 2},      // 2.8 of 8 with the one before, for the second time
+      {30, 2, 5.9, 3, 2},    // no reason to take more
+      {118, 8, 9, 5, 1},     // the pause is over, but 1.8 of 8
+      {332, 8, 4, 5, 1},     // the pause doubles
+      {738, 8, 4, 5, 1},     //
+      {1544, 8, 4, 5, 1},    //
+      {3150, 8, 4, 5, 1},    // but not beyond 1.6 s
+      {4752, 1, 1, 1, 1},    //
+      {4756, 8, 30, 5, 8},   // free again
+      {4770, 8, 4, 5, 8},    // doubts begin anew
+      {4780, 8, 4, 5, 1},    //
+      {4886, 8, 38.4, 8, 8}, // six tenths are enough
+  };
+  constexpr std::int64_t kMillisecond = 1'000'000;
+  UsefulThreads useful;
+  for (const Call& call : calls) {
+    const std::int64_t end = (call.begin + call.elapsed) * kMillisecond;
+    useful.note(call.threads, static_cast<std::int64_t>(call.work * kMillisecond),
+                call.elapsed * kMillisecond, end);
+    EXPECT_EQ(useful.of(8, [end] { return end; }), call.next) << "after " << call.begin << " ms";
+  }
+}
+
+TEST(SIMDBEZIER_BACK_END, threads_that_sleep_do_not_work) {
+  const std::int64_t begin = elapsed_time();
+  const std::int64_t work = processor_time();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_LT(processor_time() - work, elapsed_time() - begin);
 }
 
 } // namespace
