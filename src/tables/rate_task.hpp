@@ -16,8 +16,10 @@ inline constexpr double kMixedShare = 1.0 / 64;
 
 /// A bound on point sets takes as long as hundreds of vertices: it is asked for where second
 /// derivatives along the normal tell that at most this share of a distance, or of the cells, may be
-/// enough, and for rates where there are at least so many cells.
+/// enough (the other one if the search is thorough), and for rates where there are at least so many
+/// cells.
 inline constexpr double kWorthLooking = 1.0 / 8;
+inline constexpr double kThoroughlyWorthLooking = 1 / 1.6;
 inline constexpr std::uint32_t kFewestLooked = 32;
 
 /// Rates of a patch that the kernel leaves to GroupBound: its numbers are too large or too small,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,6 +78,33 @@ struct Choice {
   std::array<double, 1> deviation{};
 
   [[nodiscard]] CertifiedRates out() { return {nu, nv, diagonals, deviation}; }
+};
+
+/// Rates and certificates of a set of patches, all at once.
+struct Choices {
+  std::vector<std::uint32_t> nu;
+  std::vector<std::uint32_t> nv;
+  std::vector<std::uint16_t> diagonals;
+  std::vector<double> deviation;
+  Status status;
+
+  Choices(const std::vector<TestPatch>& patches, const RateOptions& options,
+          const RunOptions& run = {})
+      : nu(patches.size(), 3), nv(patches.size(), 3), diagonals(patches.size()),
+        deviation(patches.size()) {
+    std::vector<ControlNets<double>> nets;
+    for (const TestPatch& patch : patches) {
+      nets.push_back(patch.nets());
+    }
+    const std::span<const ControlNets<double>> views(nets);
+    Topology topology;
+    EXPECT_EQ(find_topology(views, topology), Status::ok);
+    status = choose_rates(views, topology, options, {nu, nv, diagonals, deviation}, run).status;
+  }
+  [[nodiscard]] std::size_t cells() const {
+    return std::inner_product(nu.begin(), nu.end(), nv.begin(), std::size_t{0});
+  }
+  friend bool operator==(const Choices&, const Choices&) = default;
 };
 
 inline Topology topology_of(const TestPatch& patch) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,125 +14,11 @@
 #include <simdbezier/mesh.hpp>
 
 #include "tests/mesh/dense_deviation.hpp"
-#include "tests/mesh/sampled_patch.hpp"
+#include "tests/mesh/uneven_patches.hpp"
 #include "tests/support/long_form.hpp"
 
 namespace simdbezier::tests::uneven_patches_test {
 namespace {
-
-constexpr double kDoubled[] = {0, 0, 1, 1};
-constexpr double kPower[] = {0, 0, 0, 1};
-constexpr double kEven[] = {0, 1 / 3.0, 2 / 3.0, 1};
-constexpr double kArc[3][2] = {{1, 0}, {1, 1}, {0, 1}};
-
-/// A net of formulas: point(i, j) has x, y, z and, where `weights` says so, w.
-template <typename PointAt>
-TestPatch net_of(std::string name, int degree_u, int degree_v, Weights weights,
-                 const PointAt& point) {
-  TestPatch patch{std::move(name), degree_u, degree_v, weights, {}};
-  for (int j = 0; j <= degree_v; ++j) {
-    for (int i = 0; i <= degree_u; ++i) {
-      const std::array<double, 4> p = point(i, j);
-      patch.values.insert(patch.values.end(), p.begin(), p.begin() + patch.channels());
-    }
-  }
-  return patch;
-}
-
-TestPatch cone(double top, double weight) {
-  return net_of("cone", 2, 1, Weights::cartesian, [&](int i, int j) {
-    const double r = j == 0 ? 1 : top;
-    return std::array{r * kArc[i][0], r * kArc[i][1], 1.0 * j, i == 1 ? weight : 1};
-  });
-}
-TestPatch octant(double u, double v) {
-  return net_of("octant", 2, 2, Weights::cartesian, [&](int i, int j) {
-    return std::array{kArc[i][0] * kArc[j][0], kArc[i][1] * kArc[j][0], kArc[j][1],
-                      (i == 1 ? u : 1) * (j == 1 ? v : 1)};
-  });
-}
-TestPatch bicubic_cone() {
-  constexpr double kCubic[4][2] = {{1, 0}, {1, 0.5523}, {0.5523, 1}, {0, 1}};
-  return net_of("bicubic cone", 3, 3, Weights::none, [&](int i, int j) {
-    const double r = 1 - j / 3.0;
-    return std::array{r * kCubic[i][0], r * kCubic[i][1], j / 3.0, 1.0};
-  });
-}
-/// A part of a hull through sections whose outermost points stand double, or nearly.
-TestPatch hull() {
-  return net_of("hull", 3, 3, Weights::none, [](int i, int j) {
-    constexpr double kAlong[] = {0, 0.05, 0.9, 1.4};
-    constexpr double kWide[] = {0, 0.02, 0.25, 0.3};
-    return std::array{kAlong[i], kWide[i] * (j > 0 ? 1.0 : 0.3), 0.2 * kDoubled[j] * j, 1.0};
-  });
-}
-TestPatch bend(const double (&along)[4], const double (&across)[4]) {
-  return net_of(&across[0] == &kDoubled[0] && &along[0] == &kEven[0] ? "bend" : "other bend", 3, 3,
-                Weights::none, [&](int i, int j) {
-                  return std::array{along[i], across[j], i == 1 || i == 2 ? 0.2 : 0.0, 1.0};
-                });
-}
-TestPatch flat(const double (&along)[4]) {
-  return net_of("flat square", 3, 3, Weights::none, [&](int i, int j) {
-    return std::array{along[i], along[j], 0.0, 1.0};
-  });
-}
-
-/// Rows and columns that are nearly double.
-TestPatch nearly_doubled() {
-  return net_of("nearly doubled", 3, 3, Weights::none, [](int i, int j) {
-    constexpr double kAlong[] = {0, 0.02, 0.4, 1};
-    constexpr double kHeight[4][4] = {{0.02, 0.1, 0.14, 0.05},
-                                      {0.05, 0.3, 0.31, 0.12},
-                                      {0.06, 0.28, 0.35, 0.09},
-                                      {0.01, 0.13, 0.1, 0.03}};
-    return std::array{kAlong[i], kAlong[j], kHeight[j][i], 1.0};
-  });
-}
-
-const double kRoot = std::sqrt(0.5);
-
-std::vector<TestPatch> patches() {
-  return {flat(kDoubled),
-          flat(kPower),
-          cone(0.3, kRoot),
-          cone(0, kRoot),
-          cone(0, 1e3),
-          bicubic_cone(),
-          octant(kRoot, kRoot),
-          octant(3, 3),
-          octant(10, kRoot),
-          octant(1e3, 1e3),
-          bend(kEven, kDoubled),
-          bend(kPower, kEven),
-          hull(),
-          nearly_doubled(),
-          bend(kDoubled, kPower)};
-}
-
-/// A bicubic patch over uneven rows and columns, or one with weights.
-TestPatch random_patch(unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  double along[4] = {0, uniform(random), uniform(random), 1};
-  double across[4] = {0, uniform(random), uniform(random), 1};
-  std::sort(along, along + 4);
-  std::sort(across, across + 4);
-  return net_of("random patch " + std::to_string(seed), 3, 3,
-                seed % 3 == 0 ? Weights::cartesian : Weights::none, [&](int i, int j) {
-                  const double w = std::pow(10, seed % 2 * 3 * uniform(random));
-                  const double skew = 0.1 * uniform(random);
-                  return std::array{along[i] + skew, across[j] - skew, 0.3 * uniform(random), w};
-                });
-}
-
-std::vector<TestPatch> patches_and_random(unsigned count) {
-  std::vector<TestPatch> all = patches();
-  for (unsigned seed = 0; seed < count; ++seed) {
-    all.push_back(random_patch(seed));
-  }
-  return all;
-}
 
 Choice choose(const TestPatch& patch, double tolerance) {
   Choice choice;
@@ -249,16 +134,17 @@ struct Sampled {
 };
 
 TEST(UnevenPatches, are_as_close_as_certified) {
-  for (const TestPatch& patch : patches_and_random(by_form(40U, 400U))) {
+  for (const TestPatch& patch : uneven_and_random_patches(by_form(40U, 400U))) {
     SCOPED_TRACE(patch.name);
-    for (const double tolerance : {0.1, 0.02}) {
+    for (const double tolerance : {0.1, 0.02, -0.02}) {
       MeshOptions options;
-      options.rates.tolerance = tolerance;
+      options.rates.tolerance = std::fabs(tolerance);
+      options.rates.thorough = tolerance < 0;
       options.normals = false;
       const Sampled sampled(patch, patch.values, options);
       ASSERT_EQ(sampled.plan.deviations.size(), 1U);
       EXPECT_LE(sampled.found, sampled.plan.deviations[0]);
-      EXPECT_LE(sampled.plan.deviations[0], tolerance);
+      EXPECT_LE(sampled.plan.deviations[0], options.rates.tolerance);
     }
   }
 }
@@ -278,42 +164,22 @@ std::vector<double> with_neighbour(const TestPatch& patch) {
 
 // A neighbour's vertices on an edge cut triangles there.
 TEST(UnevenPatches, are_as_close_as_certified_whatever_their_neighbours) {
-  for (const TestPatch& patch : patches_and_random(by_form(30U, 300U))) {
+  for (const TestPatch& patch : uneven_and_random_patches(by_form(30U, 300U))) {
     SCOPED_TRACE(patch.name);
     const std::vector<double> values = with_neighbour(patch);
-    const std::array<double, 2> tolerances = {0.1, 0.005};
-    MeshOptions options;
-    options.rates.tolerances = tolerances;
-    options.normals = false;
-    const Sampled sampled(patch, values, options);
-    ASSERT_EQ(sampled.plan.deviations.size(), 2U);
-    EXPECT_LE(sampled.found, sampled.plan.deviations[0]);
-    EXPECT_LE(sampled.plan.deviations[0], 0.1);
+    for (const bool thorough : {false, true}) {
+      const std::array<double, 2> tolerances = {thorough ? 0.02 : 0.1, 0.005};
+      MeshOptions options;
+      options.rates.tolerances = tolerances;
+      options.rates.thorough = thorough;
+      options.normals = false;
+      const Sampled sampled(patch, values, options);
+      ASSERT_EQ(sampled.plan.deviations.size(), 2U);
+      EXPECT_LE(sampled.found, sampled.plan.deviations[0]);
+      EXPECT_LE(sampled.plan.deviations[0], tolerances[0]);
+    }
   }
 }
-
-/// Rates and certificates of a set of patches, all at once.
-struct Choices {
-  std::vector<std::uint32_t> nu;
-  std::vector<std::uint32_t> nv;
-  std::vector<std::uint16_t> diagonals;
-  std::vector<double> deviation;
-  Status status;
-
-  Choices(const std::vector<TestPatch>& patches, const RateOptions& options)
-      : nu(patches.size(), 3), nv(patches.size(), 3), diagonals(patches.size()),
-        deviation(patches.size()) {
-    std::vector<ControlNets<double>> nets;
-    for (const TestPatch& patch : patches) {
-      nets.push_back(patch.nets());
-    }
-    const std::span<const ControlNets<double>> views(nets);
-    Topology topology;
-    EXPECT_EQ(find_topology(views, topology), Status::ok);
-    status = choose_rates(views, topology, options, {nu, nv, diagonals, deviation}).status;
-  }
-  friend bool operator==(const Choices&, const Choices&) = default;
-};
 
 /// A flat patch whose side at v = 0 is a point: one cell would do, but makes no triangle there.
 TestPatch raised_pole() {
@@ -328,9 +194,11 @@ TEST(UnevenPatches, have_certificates_that_no_other_patch_changes) {
   edges.longest_edge = 0.4;
   RateOptions keeps;
   keeps.keep = 2;
-  for (const TestPatch& patch : patches_and_random(by_form(60U, 400U))) {
+  RateOptions thorough;
+  thorough.thorough = true;
+  for (const TestPatch& patch : uneven_and_random_patches(by_form(60U, 400U))) {
     SCOPED_TRACE(patch.name);
-    for (RateOptions options : {RateOptions(), edges, keeps}) {
+    for (RateOptions options : {RateOptions(), edges, keeps, thorough}) {
       for (const double tolerance : {0.1, 0.01}) {
         options.tolerance = tolerance;
         const Choices alone({patch}, options);

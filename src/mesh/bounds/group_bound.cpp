@@ -21,6 +21,7 @@ constexpr double kDifferenceError = 64 * 0x1p-53;
 /// More cells than about these are not looked at, since they would take far longer than their
 /// vertices; nor chosen, unless others have far more.
 constexpr double kMostLooked = 64;
+constexpr double kMostThoroughlyLooked = 1024;
 constexpr double kFarMore = 64;
 
 /// The angle of (x, y), where y is not below 0, to a few units in the last place: atan2() may have
@@ -64,7 +65,8 @@ private:
 } // namespace
 
 // Both tables have the same bounds. A program that knows floats alone has one of them.
-GroupBound::GroupBound(Isa isa) noexcept : kernels_(separate_table<NetTable<float>>(isa).bounds) {}
+GroupBound::GroupBound(Isa isa, bool thorough) noexcept
+    : kernels_(separate_table<NetTable<float>>(isa).bounds), thorough_(thorough) {}
 
 template <typename S>
 bool GroupBound::read(const ControlNets<S>& nets, std::size_t patch, RateFlags flags) {
@@ -160,9 +162,11 @@ SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
   const auto pays = [&] {
     const double bound = usual.bound * patch.scale.inverse();
     const double fewest = bends.fewest(bound);
-    return fewest <= std::max(kMostLooked, least > 0 ? count / kFarMore : 0) &&
-           (fewest <= kWorthLooking * count ||
-            bends.at(1.0 / usual.cells.nu, 1.0 / usual.cells.nv) <= kWorthLooking * bound);
+    const double worth = thorough_ ? kThoroughlyWorthLooking : kWorthLooking;
+    const double most = thorough_ ? kMostThoroughlyLooked : kMostLooked;
+    return fewest <= std::max(most, least > 0 ? count / kFarMore : 0) &&
+           (fewest <= worth * count ||
+            bends.at(1.0 / usual.cells.nu, 1.0 / usual.cells.nv) <= worth * bound);
   };
   if (!is_far && !pays()) {
     return nullptr;

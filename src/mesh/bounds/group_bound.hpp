@@ -28,7 +28,8 @@ public:
   using Lanes = std::array<Value, kMostBoundLanes>;
 
   /// Kernels are those of an instruction set that is there; bounds are the same on all of them.
-  explicit GroupBound(Isa isa) noexcept;
+  /// thorough: whether bounds on point sets are asked for wherever they may be a little smaller.
+  GroupBound(Isa isa, bool thorough) noexcept;
 
   /// The most patches of a group.
   [[nodiscard]] std::size_t lanes() const { return kernels_.lanes; }
@@ -51,6 +52,13 @@ public:
   /// The fewest cells whose bound is at most t > 0, one value a lane; more than `most` in a
   /// direction, and nothing certified, where there are none.
   [[nodiscard]] Lanes<CertifiedCells> choose(const Lanes<double>& t, std::uint32_t most) const;
+  /// Fewer cells than those chosen, where point sets tell that they hold, but at least so many
+  /// segments in each direction; or those chosen.
+  [[nodiscard]] Lanes<CertifiedCells> fewer(const Lanes<CertifiedCells>& chosen,
+                                            const Lanes<CellCounts>& least, const Lanes<double>& t,
+                                            std::uint32_t most) const;
+  /// Whether bounds on point sets have been asked for.
+  [[nodiscard]] bool has_point_sets(std::size_t lane) const { return spaces_[lane] != nullptr; }
   /// Adds cells in both directions, as long as there may be more, until the bound is at most t;
   /// more than `most` in a direction, and nothing certified, where it never is, or where `cells`
   /// had more.
@@ -106,6 +114,7 @@ private:
   [[nodiscard]] CellCounts filip(std::size_t lane, double tolerance, std::uint32_t most) const;
 
   const BoundKernels& kernels_;
+  bool thorough_;
   BoundGroup group_{};
   WholePatches whole_{};
   Lanes<VectorPatch> patches_;

@@ -18,6 +18,15 @@ namespace simdbezier::detail {
 /// The largest weight over the smallest one.
 double weight_spread(const VectorPatch& patch);
 
+/// What is looked for.
+struct SpaceSearch {
+  CellCounts usual;   ///< there have to be fewer of them than these …
+  CellCounts least;   ///< … with at least so many segments in each direction …
+  std::uint32_t most; ///< … and no more than so many
+  double t;           ///< what their bound has to be below
+  bool thorough;      ///< whether it may take 0.1 s, however few cells there may be
+};
+
 /// The bound of one patch. In its own scale, as others are.
 class SpaceBound {
 public:
@@ -30,10 +39,9 @@ public:
   /// may run from (1,0) to (0,1).
   CertifiedCells certify(const CellCounts& cells, double stop, double enough = 0,
                          bool may_fall = true);
-  /// Few cells that hold, but fewer than `usual`; with an infinite bound where there are none.
-  /// bends: those of the patch, which tell how many that may be.
-  CertifiedCells choose(const CellCounts& usual, double t, const NormalBends& bends,
-                        std::uint32_t most);
+  /// Few cells that hold; with an infinite bound where there are none. bends: those of the patch,
+  /// which tell how many that may be.
+  CertifiedCells choose(const SpaceSearch& search, const NormalBends& bends);
 
 private:
   SpaceBound(const PatchTurn& turn, const VectorPatch& patch, RateFlags flags)

@@ -251,6 +251,22 @@ GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cel
   return raised;
 }
 
+GroupBound::Lanes<CertifiedCells> GroupBound::fewer(const Lanes<CertifiedCells>& chosen,
+                                                    const Lanes<CellCounts>& least,
+                                                    const Lanes<double>& t,
+                                                    std::uint32_t most) const {
+  Lanes<CertifiedCells> found = chosen;
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    SpaceBound* const space = space_of(lane, chosen[lane], thorough_ ? 2 : kFewestLooked);
+    if (space != nullptr) {
+      const SpaceSearch search{chosen[lane].cells, least[lane], most, in_patch(lane, t[lane]),
+                               thorough_};
+      take_if_close(lane, space->choose(search, *bends_[lane]), found[lane]);
+    }
+  }
+  return found;
+}
+
 GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
                                                      std::uint32_t most) const {
   // Rates near those that the bound of an even pair, in proportion to the tolerance, asks for.
@@ -284,14 +300,10 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
     const auto scaled = [&](std::uint32_t n) { return static_cast<std::uint32_t>(n * scale); };
     trials[lane] = CellTrials(best[lane], {scaled(even[lane].nu), scaled(even[lane].nv)}, most);
   }
-  Lanes<CertifiedCells> chosen = Search(*this, t, true).run(trials);
+  Lanes<CellCounts> least;
+  least.fill({1, 1});
+  Lanes<CertifiedCells> chosen = fewer(Search(*this, t, true).run(trials), least, t, most);
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    SpaceBound* const space = space_of(lane, chosen[lane], kFewestLooked);
-    if (space != nullptr) {
-      const double stop = in_patch(lane, t[lane]);
-      take_if_close(lane, space->choose(chosen[lane].cells, stop, *bends_[lane], most),
-                    chosen[lane]);
-    }
     if ((beyond >> lane & 1) != 0 && !(chosen[lane].bound <= t[lane]) &&
         at_most[lane].bound <= t[lane]) {
       chosen[lane] = at_most[lane];

@@ -29,7 +29,7 @@ Report certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<do
   };
   std::vector<std::uint32_t> patches(nets.count);
   std::iota(patches.begin(), patches.end(), 0U);
-  return visit_groups<S>(nets, patches, all_open, isa, threads, visit);
+  return visit_groups<S>(nets, patches, all_open, false, isa, threads, visit);
 }
 
 } // namespace

@@ -48,15 +48,16 @@ private:
 };
 
 /// Calls visit(group) for these patches of a view, some at a time, in parallel; the report names
-/// the first of them at fault. flags_of(patch): its RateFlags.
+/// the first of them at fault. flags_of(patch): its RateFlags. thorough: as in GroupBound.
 template <typename S, typename FlagsOf, typename Visit>
 Report visit_groups(const ControlNets<S>& nets, std::span<const std::uint32_t> patches,
-                    const FlagsOf& flags_of, Isa isa, int threads, const Visit& visit) {
+                    const FlagsOf& flags_of, bool thorough, Isa isa, int threads,
+                    const Visit& visit) {
   constexpr std::size_t kNanoseconds = 2000; // a patch
   std::vector<Status> found(patches.size(), Status::ok);
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     try {
-      GroupBound bound(isa);
+      GroupBound bound(isa, thorough);
       for (std::size_t k = begin; k < end; k += bound.lanes()) {
         const std::size_t count = std::min(end - k, bound.lanes());
         bound.begin();

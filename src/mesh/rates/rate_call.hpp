@@ -47,6 +47,7 @@ public:
       }
       errors_ = own_errors_;
     }
+    searched_.resize(options.thorough ? out.cells_u.size() : 0);
     deviations_ = out.deviation;
     if (deviations_.empty()) {
       own_deviations_.resize(out.cells_u.size());
@@ -69,6 +70,30 @@ public:
       all[patch] = rates(patch);
     }
     return all;
+  }
+
+  /// The certificates that are there now, with errors.
+  [[nodiscard]] std::vector<CertifiedCells> certificates() const {
+    std::vector<CertifiedCells> all(out_.cells_u.size());
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+      all[patch] = {rates(patch), deviations_[patch], out_.diagonals[patch]};
+    }
+    return all;
+  }
+  /// The number of cells of all patches.
+  [[nodiscard]] double all_cells() const {
+    double sum = 0;
+    for (std::size_t patch = 0; patch < out_.cells_u.size(); ++patch) {
+      sum += rates(patch).product();
+    }
+    return sum;
+  }
+  /// Puts those back that were there.
+  void restore(const std::vector<CertifiedCells>& before) {
+    for (std::size_t patch = 0; patch < before.size(); ++patch) {
+      put(patch, before[patch]);
+      deviations_[patch] = before[patch].bound;
+    }
   }
 
   /// Rates of the frame before take the place of chosen ones that have few cells less, if they
@@ -109,14 +134,42 @@ public:
         Lanes<CellCounts> cells;
         cells.fill({1, 1});
         open.for_lanes([&](std::size_t lane, std::size_t) {
-          cells[lane] =
-              at_least(chosen[lane].cells, open.bound().lengths(lane), options_.longest_edge);
-          cells[lane] = at_least(cells[lane], open.bound().normal_turns(lane),
-                                 radians(options_.normal_degrees));
+          cells[lane] = measured(open.bound(), lane, chosen[lane].cells);
         });
         chosen = open.bound().raise(cells, t, most_);
       }
       put_chosen(open, chosen);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        if (!searched_.empty()) {
+          searched_[patch] = open.bound().has_point_sets(lane) ? 1 : 0;
+        }
+      });
+    });
+  }
+
+  /// Of rates that have been chosen, takes those with fewer cells by a thorough search. From now on
+  /// all certificates are thorough.
+  Report choose_fewer() {
+    thorough_ = true;
+    const auto is_open = [&](std::size_t patch, bool) {
+      return searched_[patch] == 0 && rates(patch).product() > 1;
+    };
+    return for_groups(is_open, [&](const PatchGroup& open) {
+      const auto chosen = lanes_of(open, uncertified({1, 1}), [&](std::size_t patch) {
+        return CertifiedCells{rates(patch), deviations_[patch] - error(patch),
+                              out_.diagonals[patch]};
+      });
+      Lanes<CellCounts> least;
+      least.fill({1, 1});
+      open.for_lanes([&](std::size_t lane, std::size_t) {
+        least[lane] = measured(open.bound(), lane, least[lane]);
+      });
+      const auto fewer = open.bound().fewer(chosen, least, tolerances(open), most_);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        if (fewer[lane].cells.product() < rates(patch).product()) {
+          put(patch, fewer[lane]);
+        }
+      });
     });
   }
 
@@ -185,6 +238,12 @@ private:
   /// Whether more is asked for than a distance.
   [[nodiscard]] bool measures() const {
     return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_degrees);
+  }
+  /// Raises rates to what is asked for besides a distance.
+  [[nodiscard]] CellCounts measured(const GroupBound& bound, std::size_t lane,
+                                    const CellCounts& cells) const {
+    const CellCounts short_edges = at_least(cells, bound.lengths(lane), options_.longest_edge);
+    return at_least(short_edges, bound.normal_turns(lane), radians(options_.normal_degrees));
   }
   [[nodiscard]] CellCounts rates(std::size_t patch) const {
     return {out_.cells_u[patch], out_.cells_v[patch]};
@@ -292,8 +351,8 @@ private:
         }
       }
       const Report report = visit_groups(
-          nets, open, [&](std::size_t patch) { return flags_of(first + patch); }, run_.isa,
-          run_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
+          nets, open, [&](std::size_t patch) { return flags_of(first + patch); }, thorough_,
+          run_.isa, run_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
       if (!report) {
         return {report.status, first + report.item};
       }
@@ -311,6 +370,8 @@ private:
   std::vector<double> own_errors_;
   const CertifiedRates& out_;
   std::uint32_t most_;
+  bool thorough_ = false;
+  std::vector<std::uint8_t> searched_; ///< whether the first search has looked at point sets
   std::span<double> deviations_;
   std::vector<double> own_deviations_;
 };

@@ -110,9 +110,10 @@ bool SpaceBound::misses(const CellCounts& cells, double stop) {
   return found;
 }
 
-CertifiedCells SpaceBound::choose(const CellCounts& usual, double t, const NormalBends& bends,
-                                  std::uint32_t most) {
-  const double stop = kSearchShare * t;
+CertifiedCells SpaceBound::choose(const SpaceSearch& search, const NormalBends& bends) {
+  const CellCounts& usual = search.usual;
+  const std::uint32_t most = search.most;
+  const double stop = kSearchShare * search.t;
   const bool is_far = spread_ > kLeastSpread;
   const double expected =
       is_far ? std::numeric_limits<double>::infinity() : 4 * bends.fewest(stop) + 1;
@@ -124,28 +125,30 @@ CertifiedCells SpaceBound::choose(const CellCounts& usual, double t, const Norma
   const double enough = stop * (is_known ? kSearchShare : 0.5);
   const auto are_too_few = [&](const CellCounts& cells) {
     const CellCounts of = turn_.turned(cells);
-    return is_known && bends.at(step(of.nu), step(of.nv)) > kBendShare * stop;
+    return of.nu < search.least.nu || of.nv < search.least.nv ||
+           (is_known && bends.at(step(of.nu), step(of.nv)) > kBendShare * stop);
   };
   const auto count = [](std::uint32_t k) { return k < 8 ? k : (8 + k % 8) << (k / 8 - 1); };
   looked_at_ = 0;
   const bool needs_it =
       std::max(usual.nu, usual.nv) >= most || (is_far && usual.product() >= kManyCells);
-  most_looks_ = needs_it
-                    ? kLastWork / work_
+  most_looks_ = needs_it ? kLastWork / work_
+                : search.thorough
+                    ? kMostWork / work_
                     : std::min(kMostWork / work_,
                                kLooksForEach * std::min(usual.product(), expected) + kFirstLooks);
   const double all = std::min(usual.product(), most_looks_);
   misses_.assign(1, {{{0.5, 0.5}, {0.5, 0.5}}});
   std::vector<CellCounts> candidates;
-  for (double least = 1; least < all; least *= 2) {
+  for (double few = 1; few < all; few *= 2) {
     candidates.clear();
-    for (std::uint32_t u = 1; count(u) <= std::min<double>(most, 2 * least); ++u) {
+    for (std::uint32_t u = 1; count(u) <= std::min<double>(most, 2 * few); ++u) {
       for (std::uint32_t v = 1; count(v) <= most; ++v) {
         const CellCounts cells{count(u), count(v)};
-        if (cells.product() >= std::min(all, 2 * least)) {
+        if (cells.product() >= std::min(all, 2 * few)) {
           break;
         }
-        if (cells.product() >= least && !are_too_few(cells)) {
+        if (cells.product() >= few && !are_too_few(cells)) {
           candidates.push_back(cells);
         }
       }
