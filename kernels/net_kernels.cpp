@@ -4,6 +4,7 @@
 #include "kernels/nets/net_boxes.hpp"
 #include "kernels/nets/net_flatness.hpp"
 #include "kernels/nets/net_maps.hpp"
+#include "kernels/nets/net_measures.hpp"
 #include "kernels/rates/group_bounds.hpp"
 #include "kernels/rates/net_rates.hpp"
 
@@ -11,7 +12,8 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
-  return {rate_kernel<T>, kBoundKernels, {mean_lines, mean_points}};
+  return {
+      rate_kernel<T>, kBoundKernels, {mean_lines, mean_points}, {sum_kernel<T>, depth_kernel<T>}};
 }
 
 template <typename T>

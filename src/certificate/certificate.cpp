@@ -8,6 +8,7 @@
 
 #include "src/certificate/certificate_sums.hpp"
 #include "src/certificate/position_bounds.hpp"
+#include "src/runtime/dispatch.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/patch_storage.hpp"
 
@@ -68,13 +69,30 @@ public:
 
   /// Writes the bounds of all positions of the patch, which are those of component().
   void positions(PositionBound& out) const {
-    out.fill(0);
-    if (!shape_.rational && shape_.cells() == 1 && shape_.components == 3 &&
-        storage_.origins == nullptr) {
-      return shape_.is_bicubic() ? plain_positions<16>(out) : plain_positions<0>(out);
-    }
     for (std::size_t c = 0; c < static_cast<std::size_t>(shape_.components); ++c) {
       out[c] = component(c).position;
+    }
+  }
+  /// Whether several patches can be measured at once.
+  [[nodiscard]] bool is_plain() const {
+    return !shape_.rational && shape_.cells() == 1 && shape_.components == 3 &&
+           storage_.origins == nullptr;
+  }
+  /// This is positions() of kMeasured plain patches from `index` on.
+  void positions(std::size_t index, const MeasureKernels<T>& measures, PositionBound* out) {
+    double sums[kComponents][kMeasured];
+    measures.sums(storage_.coefficients + index * shape_.coefficients(), shape_.coefficients(),
+                  matrix_.terms(), matrix_.weights(), sums);
+    for (std::size_t p = 0; p < kMeasured; ++p) {
+      for (std::size_t c = 0; c < kComponents; ++c) {
+        // One cell has degrees of at most 5, so that the sum on the way is at most 2^10 times this.
+        constexpr double kUsual = 0x1p-12 * static_cast<double>(std::numeric_limits<T>::max()) / 8;
+        out[p][c] = kRoundings * sums[c][p] + kDenormals;
+        if (!(sums[c][p] < kUsual)) [[unlikely]] {
+          look_at(index + p);
+          out[p][c] = component(c).position;
+        }
+      }
     }
   }
 
@@ -143,33 +161,6 @@ private:
     return {bound(position, 1, sums.way + position),
             bound(sums.du, 2 * shape_.degree_u, sums.way_u),
             bound(sums.dv, 2 * shape_.degree_v, sums.way_v)};
-  }
-
-  /// What polynomial() says of positions alone. Terms are found side by side first; their sums are
-  /// chains of additions, and those of three components take little more time than one. kTerms: of
-  /// a component, if the compiler shall know, else 0.
-  template <std::size_t kTerms>
-  void plain_positions(PositionBound& out) const {
-    constexpr std::size_t kAhead = 8; // patches: what is not asked for ahead is waited for
-    const std::size_t count = kTerms == 0 ? matrix_.terms() : kTerms;
-    const T* const c = storage_.coefficients + index_ * shape_.coefficients();
-    double terms[3][kMostOrder * kMostOrder];
-    for (std::size_t k = 0; k < 3; ++k) {
-      __builtin_prefetch(c + (3 * kAhead + k) * count);
-      matrix_.weigh(c + k * count, count, terms[k]);
-    }
-    double value[3] = {};
-    for (std::size_t term = 0; term < count; ++term) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        value[k] += terms[k][term];
-      }
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      // One cell has degrees of at most 5, so that the sum on the way is at most 2^10 times this.
-      const bool usual =
-          value[k] < 0x1p-12 * static_cast<double>(std::numeric_limits<T>::max()) / 8;
-      out[k] = usual ? kRoundings * value[k] + kDenormals : component(k).position;
-    }
   }
 
   /// Bounds of S = h / w around an origin O, S_u = (h_u - S w_u) / w and S_v, from those of h, w
@@ -262,25 +253,37 @@ private:
 } // namespace
 
 template <typename T>
-void find_position_bounds(const PatchSet<T>& set, bool fused, std::size_t begin, std::size_t end,
+void find_position_bounds(const PatchSet<T>& set, Isa isa, std::size_t begin, std::size_t end,
                           PositionBound* out) noexcept {
+  const MeasureKernels<T>& measures = separate_table<NetTable<T>>(isa).measures;
+  const SetStorage<T>& all = *set.storage();
   const PatchStorage<T>* last = nullptr;
   std::optional<Certificate<T>> certificate;
-  for (std::size_t patch = begin; patch < end; ++patch, ++out) {
-    const PatchPlace place = set.storage()->place(patch);
-    const PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
+  std::size_t count = 0;
+  for (; begin < end; begin += count, out += count) {
+    const PatchPlace place = all.place(begin);
+    const PatchStorage<T>& storage = all.buckets[place.bucket];
     if (&storage != last) {
-      certificate.emplace(storage, fused, false);
+      certificate.emplace(storage, fuses_multiply_add(isa), false);
       last = &storage;
     }
-    certificate->look_at(place.index);
-    certificate->positions(*out);
+    // Patches of one bucket are in order in it.
+    const PatchPlace at_end = all.place(std::min(begin + kMeasured, end) - 1);
+    if (certificate->is_plain() && at_end.bucket == place.bucket &&
+        at_end.index - place.index == kMeasured - 1) {
+      certificate->positions(place.index, measures, out);
+      count = kMeasured;
+    } else {
+      certificate->look_at(place.index);
+      certificate->positions(*out);
+      count = 1;
+    }
   }
 }
 
-template void find_position_bounds(const PatchSet<float>&, bool, std::size_t, std::size_t,
+template void find_position_bounds(const PatchSet<float>&, Isa, std::size_t, std::size_t,
                                    PositionBound*) noexcept;
-template void find_position_bounds(const PatchSet<double>&, bool, std::size_t, std::size_t,
+template void find_position_bounds(const PatchSet<double>&, Isa, std::size_t, std::size_t,
                                    PositionBound*) noexcept;
 
 } // namespace detail

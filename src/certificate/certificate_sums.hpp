@@ -70,13 +70,8 @@ public:
   }
 
   [[nodiscard]] std::size_t terms() const { return order_u_ * order_v_; }
-  /// Sets to[term] to what each coefficient c adds to TermSums::value.
-  template <typename T>
-  void weigh(const T* c, std::size_t count, double* to) const {
-    for (std::size_t term = 0; term < count; ++term) {
-      to[term] = weight_[term] * std::fabs(static_cast<double>(c[term]));
-    }
-  }
+  /// What |coefficient| is multiplied by in TermSums::value.
+  [[nodiscard]] const double* weights() const { return weight_; }
 
 private:
   friend struct TermSums;

@@ -200,21 +200,20 @@ private:
 } // namespace
 
 template <typename T>
-void find_position_bounds(const CurveSet<T>& set, bool fused, std::size_t begin, std::size_t end,
+void find_position_bounds(const CurveSet<T>& set, Isa isa, std::size_t begin, std::size_t end,
                           PositionBound* out) noexcept {
-  CurveCertificate<T> certificate(*set.storage(), fused, 0);
+  CurveCertificate<T> certificate(*set.storage(), fuses_multiply_add(isa), 0);
   for (std::size_t curve = begin; curve < end; ++curve, ++out) {
     certificate.look_at(curve);
-    out->fill(0);
     for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
       (*out)[c] = certificate.bounds(c).at[0];
     }
   }
 }
 
-template void find_position_bounds(const CurveSet<float>&, bool, std::size_t, std::size_t,
+template void find_position_bounds(const CurveSet<float>&, Isa, std::size_t, std::size_t,
                                    PositionBound*) noexcept;
-template void find_position_bounds(const CurveSet<double>&, bool, std::size_t, std::size_t,
+template void find_position_bounds(const CurveSet<double>&, Isa, std::size_t, std::size_t,
                                    PositionBound*) noexcept;
 
 } // namespace detail

@@ -22,9 +22,9 @@ double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
       constexpr std::size_t kBlock = 32;
       detail::PositionBound bounds[kBlock];
       const std::size_t end = std::min(set.size(), patch + kBlock);
-      detail::find_position_bounds(set, fuses_multiply_add(chosen), patch, end, bounds);
+      detail::find_position_bounds(set, chosen, patch, end, bounds);
       for (const detail::PositionBound* at = bounds; patch < end; ++patch, ++at) {
-        largest = std::max(largest, *std::max_element(at->begin(), at->end()));
+        largest = std::max(largest, *std::max_element(at->begin(), at->begin() + set.components()));
       }
     }
   });

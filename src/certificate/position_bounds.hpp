@@ -10,16 +10,16 @@
 
 namespace simdbezier::detail {
 
-/// One member's bounds by component; 0 where there is none.
+/// One member's bounds by component; what is behind the set's components is not written.
 using PositionBound = std::array<double, kMostComponents>;
 
 /// Writes the bounds of members [begin, end) to out[0], …; they are those of error_bounds(). To be
 /// called in the library's floating-point environment.
 template <typename T>
-void find_position_bounds(const PatchSet<T>& set, bool fused, std::size_t begin, std::size_t end,
+void find_position_bounds(const PatchSet<T>& set, Isa isa, std::size_t begin, std::size_t end,
                           PositionBound* out) noexcept;
 template <typename T>
-void find_position_bounds(const CurveSet<T>& set, bool fused, std::size_t begin, std::size_t end,
+void find_position_bounds(const CurveSet<T>& set, Isa isa, std::size_t begin, std::size_t end,
                           PositionBound* out) noexcept;
 
 } // namespace simdbezier::detail

@@ -145,12 +145,28 @@ struct NetOperationTable {
   NetKernel<FlatnessTask<T>> flatness;
 };
 
+/// So many patches are measured at once: as many as the widest register has doubles.
+inline constexpr std::size_t kMeasured = 8;
+
+/// What is measured of patches with three components, in double and without fused operations.
+template <typename T>
+struct MeasureKernels {
+  /// sums[c][p] = sum_k factors[k] |coefficients[p stride + c terms + k]|, k < terms, added from
+  /// the first one on.
+  void (*sums)(const T* coefficients, std::size_t stride, std::size_t terms, const double* factors,
+               double (*sums)[kMeasured]);
+  /// The least and the largest sum_c (P[c] - eye[c]) axis[c] of the points of packed bicubic nets.
+  void (*depths)(const T* nets, std::ptrdiff_t stride, const double* eye, const double* axis,
+                 double* nearest, double* farthest);
+};
+
 /// What meshes and splines need of nets.
 template <typename T>
 struct NetTable {
   NetKernel<RateTask<T>> rates;
   BoundKernels bounds; ///< in double, whatever T is
   MeanKernels means;   ///< likewise
+  MeasureKernels<T> measures;
 };
 
 } // namespace simdbezier::detail

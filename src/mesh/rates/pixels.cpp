@@ -64,17 +64,41 @@ public:
            is_positive(camera_.height) && is_positive(camera_.nearest) &&
            is_finite({{eye[0], eye[1], eye[2]}});
   }
+  /// Writes the tolerances of a view's patches.
   template <typename S>
-  [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch,
-                                 double pixels) const {
-    double nearest = HUGE_VAL; // the depths of points, times the length of the camera's direction
-    double farthest = -HUGE_VAL;
-    ask_for_net(nets, std::min(patch + 8, nets.count - 1));
-    for_points(nets, patch, [&](const Point3& point) {
-      const double depth = along_axis(point);
-      nearest = std::min(nearest, depth);
-      farthest = std::max(farthest, depth);
-    });
+  void write_tolerances(const ControlNets<S>& nets, double pixels, double* out) const {
+    const NetView<const S> view = view_of(nets);
+    Isa isa = Isa::automatic;
+    const bool measured = resolve_isa(isa, isa) == Status::ok && view.packed &&
+                          nets.weights == Weights::none && nets.degree_u == 3 && nets.degree_v == 3;
+    std::size_t patch = 0;
+    for (; measured && nets.count - patch >= kMeasured; patch += kMeasured) {
+      double nearest[kMeasured];
+      double farthest[kMeasured];
+      separate_table<NetTable<S>>(isa).measures.depths(values_at(nets, patch, 0, 0),
+                                                       nets.patch_stride, camera_.eye.data(),
+                                                       axis_.x, nearest, farthest);
+      for (std::size_t k = 0; k < kMeasured; ++k) {
+        out[patch + k] = tolerance(nets, patch + k, nearest[k], farthest[k], pixels);
+      }
+    }
+    for (; patch < nets.count; ++patch) {
+      double nearest = HUGE_VAL;
+      double farthest = -HUGE_VAL;
+      for_points(nets, patch, [&](const Point3& point) {
+        const double depth = along_axis(point);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+      });
+      out[patch] = tolerance(nets, patch, nearest, farthest, pixels);
+    }
+  }
+
+private:
+  /// nearest, farthest: depths of the points, times the length of the camera's direction.
+  template <typename S>
+  [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch, double nearest,
+                                 double farthest, double pixels) const {
     const bool behind = farthest / length_ < camera_.nearest;
     if (behind || camera_.skip_outside || camera_.skip_back) { // else nothing asks for a box
       const PointBox box = box_of(nets, patch);
@@ -87,7 +111,6 @@ public:
     return pixels * (camera_.orthographic ? 1 : depth) / pixels_per_unit_;
   }
 
-private:
   [[nodiscard]] double along_axis(const Point3& point) const {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -180,9 +203,7 @@ Status pixel_tolerances(std::span<const ControlNets<S>> nets, const Camera& came
   }
   std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
-    for (std::size_t patch = 0; patch < view.count; ++patch) {
-      out[first + patch] = camera_view.tolerance(view, patch, pixels);
-    }
+    camera_view.write_tolerances(view, pixels, &out[first]);
     first += view.count;
   }
   return Status::ok;

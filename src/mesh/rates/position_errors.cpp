@@ -29,9 +29,9 @@ double norm_bound(std::span<const double> errors) noexcept {
   return (usual ? std::sqrt(square) : long_way()) * (1 + 0x1p-40);
 }
 
-/// components: of a position.
+/// most: components of a position.
 template <typename Set>
-Status find_errors(const Set& set, std::size_t components, std::span<double> out,
+Status find_errors(const Set& set, int most, std::span<double> out,
                    const RunOptions& options) noexcept {
   if (out.size() < set.size()) {
     return Status::output_too_small;
@@ -40,6 +40,7 @@ Status find_errors(const Set& set, std::size_t components, std::span<double> out
   if (const Status status = resolve_isa(options.isa, chosen); !status) {
     return status;
   }
+  const auto components = static_cast<std::size_t>(std::min(set.components(), most));
   constexpr std::size_t kBlock = 256;
   const std::size_t blocks = (set.size() + kBlock - 1) / kBlock;
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
@@ -47,7 +48,7 @@ Status find_errors(const Set& set, std::size_t components, std::span<double> out
     const std::size_t last = std::min(set.size(), end * kBlock);
     for (std::size_t first = begin * kBlock; first < last; first += kBlock) {
       const std::size_t count = std::min(kBlock, last - first);
-      find_position_bounds(set, fuses_multiply_add(chosen), first, first + count, bounds);
+      find_position_bounds(set, chosen, first, first + count, bounds);
       for (std::size_t k = 0; k < count; ++k) {
         out[first + k] = norm_bound(std::span(bounds[k]).first(components));
       }
