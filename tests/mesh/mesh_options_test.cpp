@@ -1,6 +1,8 @@
 // What tessellate() is asked for besides a tolerance, and what it refuses.
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +11,7 @@
 #include "tests/mesh/mesh_models.hpp"
 #include "tests/mesh/mesh_oracle.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/random.hpp"
 
 namespace simdbezier::tests::mesh_options_test {
 namespace {
@@ -185,6 +188,45 @@ TEST(MeshOptions, deviations_are_those_of_the_instruction_set) {
   EXPECT_EQ(position_errors(plan_mesh<float>(nets, {.nu = 2, .nv = 2}).set, rounding,
                             {.isa = static_cast<Isa>(99)}),
             Status::unsupported_isa);
+}
+
+/// Errors are found for several patches at once, unless a set has few of one shape.
+TEST(MeshOptions, errors_are_the_same_together_and_alone) {
+  Random random(3);
+  for (const auto& [degree_u, degree_v] : {std::pair(1, 1), {1, 2}, {3, 3}, {4, 3}, {5, 5}}) {
+    for (const double size : {1.0, 2e34}) { // the larger ones are near the range of float
+      const auto values = static_cast<std::size_t>(3 * (degree_u + 1) * (degree_v + 1));
+      std::vector<double> points(19 * values);
+      for (double& value : points) {
+        value = random.between(-size, size);
+      }
+      const auto nets = ControlNets<double>::packed(points.data(), 19, degree_u, degree_v);
+      const auto bilinear = ControlNets<double>::packed(points.data(), 2, 1, 1);
+      auto tail = nets;
+      tail.points += 9 * nets.patch_stride;
+      tail.count = 10;
+      auto head = nets;
+      head.count = 9;
+      PatchSet<float> set;
+      const std::array views = {head, bilinear, tail};
+      ASSERT_TRUE(pack(std::span<const ControlNets<double>>(views), set));
+      for (const Isa isa : available_isas()) {
+        std::vector<double> together(set.size());
+        ASSERT_TRUE(position_errors(set, together, {.isa = isa}));
+        together.erase(together.begin() + 9, together.begin() + 11);
+        for (std::size_t p = 0; p < nets.count; ++p) {
+          auto single = nets;
+          single.points += static_cast<std::ptrdiff_t>(p) * nets.patch_stride;
+          single.count = 1;
+          PatchSet<float> alone;
+          ASSERT_TRUE(pack(single, alone));
+          double error = 0;
+          ASSERT_TRUE(position_errors(alone, std::span(&error, 1), {.isa = isa}));
+          EXPECT_EQ(together[p], error) << to_string(isa) << ' ' << degree_u << ' ' << p;
+        }
+      }
+    }
+  }
 }
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();

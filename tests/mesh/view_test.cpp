@@ -170,5 +170,34 @@ TEST(View, keeps_rational_patches_that_face_away) {
   EXPECT_GT(std::ranges::max(torus.tolerances(camera)), 0.3);
 }
 
+/// Nets are measured several at once, unless they are few or not side by side.
+template <typename T>
+void expect_tolerances_of_single_nets() {
+  Random random(11);
+  std::vector<T> values(23 * 50);
+  for (T& value : values) {
+    value = static_cast<T>(random.between(-9, 9));
+  }
+  const Camera camera = random_camera(random);
+  for (const std::ptrdiff_t stride : {48, 50}) {
+    auto nets = ControlNets<T>::packed(values.data(), 23, 3, 3);
+    nets.patch_stride = stride;
+    std::vector<double> together(nets.count);
+    ASSERT_TRUE(pixel_tolerances(nets, camera, 1, std::span(together)));
+    for (std::size_t p = 0; p < nets.count; ++p) {
+      auto single = nets;
+      single.points += static_cast<std::ptrdiff_t>(p) * stride;
+      single.count = 1;
+      double alone = 0;
+      ASSERT_TRUE(pixel_tolerances(single, camera, 1, std::span(&alone, 1)));
+      EXPECT_EQ(together[p], alone) << p;
+    }
+  }
+}
+TEST(View, gives_nets_the_same_tolerance_together_and_alone) {
+  expect_tolerances_of_single_nets<float>();
+  expect_tolerances_of_single_nets<double>();
+}
+
 } // namespace
 } // namespace simdbezier::tests::view_test
