@@ -1,8 +1,10 @@
 // RateOptions::thorough: fewer cells than by default, wherever they may be fewer.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -139,42 +141,80 @@ struct Joined {
   friend bool operator==(const Joined&, const Joined&) = default;
 };
 
-// Patches with sides in common may get rates that have to be raised.
-TEST(Thorough, never_has_more_cells_where_patches_are_joined) {
-  std::size_t fewer = 0;
-  const unsigned seeds = by_form(80U, 2000U);
-  for (unsigned seed = 0; seed < seeds; ++seed) {
-    SCOPED_TRACE(seed);
-    const RandomGluing gluing(seed);
-    for (const double tolerance : {0.05, 0.01}) {
-      const Joined usual(gluing.values, within(tolerance, false));
-      const Joined thorough(gluing.values, within(tolerance));
-      ASSERT_EQ(thorough.status, usual.status);
-      EXPECT_LE(thorough.cells(), usual.cells());
-      EXPECT_EQ(thorough.raised, usual.raised);
-      EXPECT_LE(*std::max_element(thorough.deviation.begin(), thorough.deviation.end()), tolerance);
-      fewer += thorough.cells() < usual.cells() ? 1 : 0;
-    }
+/// A sheet of 5 x 5 patches whose control points are a lattice of random heights.
+std::vector<double> sheet() {
+  constexpr std::size_t kPatches = 5;
+  constexpr std::size_t kPoints = 3 * kPatches + 1;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<std::array<double, 3>> lattice;
+  for (std::size_t k = 0; k < kPoints * kPoints; ++k) {
+    const auto along = [&](std::size_t n) {
+      return static_cast<double>(n) + 0.6 * (uniform(random) - 0.5);
+    };
+    const double x = along(k % kPoints);
+    lattice.push_back({x, along(k / kPoints), 2 * uniform(random)});
   }
-  EXPECT_GT(fewer, seeds / 4);
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 16 * kPatches * kPatches; ++k) {
+    const std::size_t patch = k / 16;
+    const std::size_t column = 3 * (patch % kPatches) + k % 4;
+    const std::size_t row = 3 * (patch / kPatches) + k / 4 % 4;
+    const auto& point = lattice[kPoints * row + column];
+    values.insert(values.end(), point.begin(), point.end());
+  }
+  return values;
 }
 
-TEST(Thorough, is_the_same_for_any_number_of_threads_and_for_tolerances_of_patches) {
-  std::vector<double> values;
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    const RandomGluing gluing(seed);
-    values.insert(values.end(), gluing.values.begin(), gluing.values.end());
+void expect_no_more_cells(const std::vector<double>& values, double tolerance, std::size_t& fewer) {
+  const Joined usual(values, within(tolerance, false));
+  const Joined thorough(values, within(tolerance));
+  ASSERT_EQ(thorough.status, usual.status);
+  EXPECT_LE(thorough.cells(), usual.cells());
+  EXPECT_EQ(thorough.raised, usual.raised);
+  EXPECT_LE(*std::max_element(thorough.deviation.begin(), thorough.deviation.end()), tolerance);
+  fewer += thorough.cells() < usual.cells() ? 1 : 0;
+}
+
+TEST(Thorough, never_has_more_cells_where_patches_are_joined) {
+  std::size_t fewer = 0;
+  for (const double tolerance : {0.1, 0.03, 0.01}) {
+    for (const MeshModel& model : mesh_models()) {
+      SCOPED_TRACE(model.name);
+      expect_no_more_cells(model.values(), tolerance, fewer);
+    }
+    for (unsigned seed = 0; seed < by_form(80U, 2000U); ++seed) {
+      SCOPED_TRACE(seed);
+      expect_no_more_cells(RandomGluing(seed).values, tolerance, fewer);
+    }
   }
+  EXPECT_GT(fewer, 10U);
+}
+
+// Rates of the sheet's patches do not depend on others, wherever these are.
+TEST(Thorough, is_the_same_for_any_number_of_threads_and_in_any_surroundings) {
+  const std::vector<double> values = sheet();
   RateOptions options = within(0.03);
   const Joined one(values, options, {.threads = 1});
   ASSERT_EQ(one.status, Status::ok);
+  EXPECT_LT(10 * one.cells(), 9 * Joined(values, within(0.03, false)).cells());
   for (const int threads : {2, 3, 7}) {
     EXPECT_TRUE(Joined(values, options, {.threads = threads}) == one) << threads;
   }
   const std::vector<double> tolerances(values.size() / 48, options.tolerance);
-  options.tolerance = kUnlimited;
   options.tolerances = tolerances;
+  options.tolerance = kUnlimited;
   EXPECT_TRUE(Joined(values, options) == one);
+
+  std::vector<double> more = values;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const RandomGluing gluing(seed);
+    more.insert(more.end(), gluing.values.begin(), gluing.values.end());
+  }
+  const Joined beside(more, within(0.03));
+  ASSERT_EQ(beside.status, Status::ok);
+  EXPECT_TRUE(std::equal(one.nu.begin(), one.nu.end(), beside.nu.begin()));
+  EXPECT_TRUE(std::equal(one.nv.begin(), one.nv.end(), beside.nv.begin()));
 }
 
 // The default's certificate of these rates is above the tolerance, so that it would not keep them.

@@ -47,7 +47,6 @@ public:
       }
       errors_ = own_errors_;
     }
-    searched_.resize(options.thorough ? out.cells_u.size() : 0);
     deviations_ = out.deviation;
     if (deviations_.empty()) {
       own_deviations_.resize(out.cells_u.size());
@@ -70,30 +69,6 @@ public:
       all[patch] = rates(patch);
     }
     return all;
-  }
-
-  /// The certificates that are there now, with errors.
-  [[nodiscard]] std::vector<CertifiedCells> certificates() const {
-    std::vector<CertifiedCells> all(out_.cells_u.size());
-    for (std::size_t patch = 0; patch < all.size(); ++patch) {
-      all[patch] = {rates(patch), deviations_[patch], out_.diagonals[patch]};
-    }
-    return all;
-  }
-  /// The number of cells of all patches.
-  [[nodiscard]] double all_cells() const {
-    double sum = 0;
-    for (std::size_t patch = 0; patch < out_.cells_u.size(); ++patch) {
-      sum += rates(patch).product();
-    }
-    return sum;
-  }
-  /// Puts those back that were there.
-  void restore(const std::vector<CertifiedCells>& before) {
-    for (std::size_t patch = 0; patch < before.size(); ++patch) {
-      put(patch, before[patch]);
-      deviations_[patch] = before[patch].bound;
-    }
   }
 
   /// Rates of the frame before take the place of chosen ones that have few cells less, if they
@@ -121,6 +96,7 @@ public:
 
   /// Chooses rates, with their certificates.
   Report choose() {
+    is_final_.resize(options_.thorough ? out_.cells_u.size() : 0);
     if (const Report ran = run_kernels(true); !ran) {
       return ran;
     }
@@ -140,19 +116,24 @@ public:
       }
       put_chosen(open, chosen);
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
-        if (!searched_.empty()) {
-          searched_[patch] = open.bound().has_point_sets(lane) ? 1 : 0;
+        if (options_.thorough && open.bound().has_point_sets(lane)) {
+          is_final_[patch] = 1;
         }
       });
     });
   }
 
-  /// Of rates that have been chosen, takes those with fewer cells by a thorough search. From now on
-  /// all certificates are thorough.
+  /// Takes fewer cells than chosen ones where a thorough search finds them; all certificates are
+  /// thorough from now on. Rates that separate_vertices() might raise stay: where it depends on
+  /// neighbours, so does how far.
   Report choose_fewer() {
     thorough_ = true;
+    for (const std::uint32_t side : topology_.loops) {
+      is_final_[side / kPatchEdges] = 1;
+    }
     const auto is_open = [&](std::size_t patch, bool) {
-      return searched_[patch] == 0 && rates(patch).product() > 1;
+      return is_final_[patch] == 0 && (topology_.flags[patch] & kEntangled) == 0 &&
+             rates(patch).product() > 1;
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
       const auto chosen = lanes_of(open, uncertified({1, 1}), [&](std::size_t patch) {
@@ -160,9 +141,8 @@ public:
                               out_.diagonals[patch]};
       });
       Lanes<CellCounts> least;
-      least.fill({1, 1});
-      open.for_lanes([&](std::size_t lane, std::size_t) {
-        least[lane] = measured(open.bound(), lane, least[lane]);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        least[lane] = measured(open.bound(), lane, fewest_separate(patch));
       });
       const auto fewer = open.bound().fewer(chosen, least, tolerances(open), most_);
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
@@ -238,6 +218,14 @@ private:
   /// Whether more is asked for than a distance.
   [[nodiscard]] bool measures() const {
     return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_degrees);
+  }
+  /// So few cells of a patch as are chosen need not be raised.
+  [[nodiscard]] CellCounts fewest_separate(std::size_t patch) const {
+    const Side* const sides = &topology_.sides[kPatchEdges * patch];
+    const bool has_point =
+        std::any_of(sides, sides + kPatchEdges, [](const Side& side) { return side.collapsed(); });
+    const std::uint32_t few = has_point || has_corner(patch) ? 3 : 1;
+    return {std::min(few, out_.cells_u[patch]), std::min(few, out_.cells_v[patch])};
   }
   /// Raises rates to what is asked for besides a distance.
   [[nodiscard]] CellCounts measured(const GroupBound& bound, std::size_t lane,
@@ -371,7 +359,7 @@ private:
   const CertifiedRates& out_;
   std::uint32_t most_;
   bool thorough_ = false;
-  std::vector<std::uint8_t> searched_; ///< whether the first search has looked at point sets
+  std::vector<std::uint8_t> is_final_; ///< whether a thorough search would find nothing else
   std::span<double> deviations_;
   std::vector<double> own_deviations_;
 };

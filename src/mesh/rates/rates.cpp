@@ -119,13 +119,7 @@ Report choose_rates(std::span<const ControlNets<S>> nets, const Topology& topolo
   };
   Report report = separate(call.choose());
   if (report && options.thorough) {
-    const std::vector<detail::CertifiedCells> usual = call.certificates();
-    const double most = call.all_cells();
     report = separate(call.choose_fewer());
-    if (report.status != Status::out_of_memory && !(report && call.all_cells() <= most)) {
-      call.restore(usual); // rates that had to be raised have been raised further than those
-      report = {};
-    }
   }
   if (report && !before.empty()) {
     report = separate(call.keep(before));
