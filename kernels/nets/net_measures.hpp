@@ -18,6 +18,7 @@ void sum_kernel(const T* coefficients, std::size_t stride, std::size_t terms, co
       const T* from[kWideLanes];
       for (std::size_t lane = 0; lane < kWideLanes; ++lane) {
         from[lane] = coefficients + (p + lane) * stride + c * terms;
+        __builtin_prefetch(from[lane] + detail::kMeasured * stride); // would be waited for
       }
       Wide sum(0.0);
       std::size_t k = 0;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "src/certificate/certificate_sums.hpp"
 #include "src/certificate/position_bounds.hpp"
@@ -257,26 +256,22 @@ void find_position_bounds(const PatchSet<T>& set, Isa isa, std::size_t begin, st
                           PositionBound* out) noexcept {
   const MeasureKernels<T>& measures = separate_table<NetTable<T>>(isa).measures;
   const SetStorage<T>& all = *set.storage();
-  const PatchStorage<T>* last = nullptr;
-  std::optional<Certificate<T>> certificate;
-  std::size_t count = 0;
-  for (; begin < end; begin += count, out += count) {
-    const PatchPlace place = all.place(begin);
-    const PatchStorage<T>& storage = all.buckets[place.bucket];
-    if (&storage != last) {
-      certificate.emplace(storage, fuses_multiply_add(isa), false);
-      last = &storage;
-    }
-    // Patches of one bucket are in order in it.
-    const PatchPlace at_end = all.place(std::min(begin + kMeasured, end) - 1);
-    if (certificate->is_plain() && at_end.bucket == place.bucket &&
-        at_end.index - place.index == kMeasured - 1) {
-      certificate->positions(place.index, measures, out);
-      count = kMeasured;
-    } else {
-      certificate->look_at(place.index);
-      certificate->positions(*out);
-      count = 1;
+  while (begin < end) {
+    const std::uint32_t bucket = all.place(begin).bucket;
+    Certificate<T> certificate(all.buckets[bucket], fuses_multiply_add(isa), false);
+    std::size_t count = 0;
+    for (; begin < end && all.place(begin).bucket == bucket; begin += count, out += count) {
+      const std::size_t index = all.place(begin).index;
+      // Patches of one bucket are in order in it.
+      const PatchPlace last = all.place(std::min(begin + kMeasured, end) - 1);
+      if (certificate.is_plain() && last.bucket == bucket && last.index - index == kMeasured - 1) {
+        certificate.positions(index, measures, out);
+        count = kMeasured;
+      } else {
+        certificate.look_at(index);
+        certificate.positions(*out);
+        count = 1;
+      }
     }
   }
 }

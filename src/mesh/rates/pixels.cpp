@@ -75,6 +75,9 @@ public:
     for (; measured && nets.count - patch >= kMeasured; patch += kMeasured) {
       double nearest[kMeasured];
       double farthest[kMeasured];
+      for (std::size_t k = 0; k < kMeasured; ++k) {
+        ask_for_net(nets, std::min(patch + kMeasured + k, nets.count - 1));
+      }
       separate_table<NetTable<S>>(isa).measures.depths(values_at(nets, patch, 0, 0),
                                                        nets.patch_stride, camera_.eye.data(),
                                                        axis_.x, nearest, farthest);
