@@ -59,16 +59,9 @@ inline void mean_lines(const detail::MeanTask& task) {
 /// too much.
 inline void mean_points(const detail::PointMeansTask& task) {
   static_assert(kWideLanes <= detail::kMeanSlack + 1);
-  const detail::SplineMean* const means = task.means;
   double* out = task.out;
   for (std::size_t n = 0; n < task.count; ++n, out += task.channels) {
-    const detail::SplineMean& mean = means[n];
-    if (n > 0 && mean.is_same(means[n - 1])) { // where two spans join
-      for (std::size_t at = 0; at < task.channels; at += kWideLanes) {
-        store_vector<Wide>(out + at, load_vector<Wide>(out + at - task.channels));
-      }
-      continue;
-    }
+    const detail::SplineMean& mean = task.means[n];
     const double* points[detail::kMostOrder];
     for (std::size_t k = 0; k < mean.terms; ++k) {
       points[k] = task.points + detail::wrapped(mean.first + k, task.period) * task.channels;

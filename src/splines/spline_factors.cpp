@@ -152,13 +152,11 @@ void SplineFactors::add_span(const SplineKnots& knots, std::size_t span) {
       triangle.take(ends[side], own < degree ? 1 : 0);
     }
   }
-  const bool joins = span > 0 && knots.joins_previous(span);
-  for (std::size_t k = 0; k <= degree; ++k) {
+  const std::size_t shared = span > 0 && knots.joins_previous(span) ? 1 : 0;
+  begins_.push_back(means_.size() - shared);
+  for (std::size_t k = shared; k <= degree; ++k) {
     const bool closes = k == degree && span + 1 == knots.spans().size() && knots.joins_previous(0);
-    if (k == 0 && joins) {
-      const SplineMean end_of_previous = means_.back();
-      means_.push_back(end_of_previous);
-    } else if (closes && span > 0) {
+    if (closes && span > 0) {
       SplineMean begin = means_.front(); // the last knot is the first one, but for roundings
       begin.first += period_;
       means_.push_back(begin);
@@ -185,6 +183,7 @@ Status SplineFactors::build(const SplineAxis& axis, std::size_t& knot) {
 void SplineFactors::build_point() {
   intervals_ = {{0, 1}};
   means_ = {{0, 0, 1, 1}};
+  begins_ = {0};
   factors_ = {1};
 }
 

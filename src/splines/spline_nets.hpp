@@ -1,9 +1,9 @@
 // Spline surfaces on their way to Bézier nets: one row of spans at a time.
 //
-// Lines are the values of a row of Bézier control points in u, [span][k][channel], in homogeneous
-// coordinates and in double. The spline's rows become lines one by one, and means of up to
-// degree_v + 1 of these are the rows of nets. A thread keeps as many lines as it needs for one row
-// of spans, and goes on with the next one.
+// Lines are the values of a row of Bézier control points in u, [mean][channel], in homogeneous
+// coordinates and in double; spans that join share one. The spline's rows become lines one by one,
+// and means of up to degree_v + 1 of these are the rows of nets. A thread keeps as many lines as it
+// needs for one row of spans, and goes on with the next one.
 #pragma once
 
 #include <cstddef>

@@ -27,11 +27,6 @@ struct SplineMean {
   std::size_t factor; ///< where its factors begin
   std::size_t terms;  ///< 1 to degree + 1; a single factor is 1
   double divisor;     ///< 1, or what makes factors whole numbers
-
-  /// Whether it is a copy of another one of the same spline.
-  [[nodiscard]] constexpr bool is_same(const SplineMean& other) const noexcept {
-    return first == other.first && factor == other.factor;
-  }
 };
 
 /// A point's number where points begin again after `period`, without a division for most.
