@@ -8,20 +8,26 @@
 //   inner     group g, lane r   inner column g, inner row r: the row in Y
 //   border    group s, lane e   inner sample s of edge e: along the edge
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
-// operations of a sample are those of the tiles, and so are its bits. Positions stand here,
-// derivatives in fast/small_grid_jets.hpp. AVX2, and some squares on AVX-512, take patches
-// as lanes: fast/small_grids_across.hpp; so do grids of two rows or columns, which are all border.
-// Doubles on AVX-512 have two groups, and tiles.
+// operations of a sample are those of the tiles, and so are its bits. So go positions of floats on
+// AVX-512. AVX2, derivatives, and grids of two rows or columns, which are all border, take patches
+// as lanes: fast/small_grids_across.hpp. Doubles on AVX-512 have two groups, and tiles.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "kernels/drain/drain_kernel.hpp"
-#include "kernels/fast/small_grid_sources.hpp"
 #include "kernels/grid/column_tile.hpp"
 #include "kernels/grid/prefetch.hpp"
 #include "kernels/simd/assembly.hpp"
 #include "kernels/simd/fours.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Samples between edges that four groups, or four lanes of a group, have room for.
+constexpr std::size_t kMostInner = 4;
+constexpr std::size_t kLeastSmall = 1 + 2;
+constexpr std::size_t kMostSmall = kMostInner + 2;
 
 /// Whether the task is a watertight grid that ends at the patch's edges, with at most kMostInner
 /// rows and columns between them: two rows alone are the edges v = 0 and 1.
@@ -60,6 +66,62 @@ SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 
+/// In which lane of which register the samples of a small grid are computed. A code for every
+/// sample, row after row: 16 times the register plus the lane (see Assembly). Registers are inner,
+/// border and the four corners, in each group.
+class SmallGridSources {
+public:
+  constexpr SmallGridSources() = default;
+  constexpr SmallGridSources(std::size_t nu, std::size_t nv) {
+    for (std::size_t j = 0; j < nv; ++j) {
+      for (std::size_t i = 0; i < nu; ++i) {
+        codes_[j * nu + i] = static_cast<std::uint8_t>(code(i, nu, j, nv));
+      }
+    }
+  }
+  [[nodiscard]] constexpr const std::uint8_t* of_register(std::size_t k) const {
+    return codes_ + 16 * k;
+  }
+
+private:
+  static constexpr std::size_t kBorder = 16;
+  static constexpr std::size_t kCorners = 32;
+  static constexpr std::size_t kRegisters = (kMostSmall * kMostSmall + 15) / 16;
+
+  static constexpr std::size_t code(std::size_t i, std::size_t nu, std::size_t j, std::size_t nv) {
+    const bool on_u = i == 0 || i + 1 == nu;
+    const bool on_v = j == 0 || j + 1 == nv;
+    const std::size_t u = i == 0 ? 0 : 1; // which of the two edges
+    const std::size_t v = j == 0 ? 0 : 1;
+    return on_u && on_v ? kCorners + detail::corner_index(u, v)
+           : on_u       ? kBorder + 4 * (j - 1) + detail::kEdgeU0 + u
+           : on_v       ? kBorder + 4 * (i - 1) + detail::kEdgeV0 + v
+                        : 4 * (i - 1) + j - 1;
+  }
+
+  std::uint8_t codes_[16 * kRegisters] = {};
+};
+
+/// Those of all sizes.
+class SmallGridSizes {
+public:
+  constexpr SmallGridSizes() {
+    for (std::size_t nv = kLeastSmall; nv <= kMostSmall; ++nv) {
+      for (std::size_t nu = kLeastSmall; nu <= kMostSmall; ++nu) {
+        sources_[nv - kLeastSmall][nu - kLeastSmall] = {nu, nv};
+      }
+    }
+  }
+  [[nodiscard]] constexpr const SmallGridSources& of(std::size_t nu, std::size_t nv) const {
+    return sources_[nv - kLeastSmall][nu - kLeastSmall];
+  }
+
+private:
+  SmallGridSources sources_[kMostInner][kMostInner];
+};
+
+inline constexpr SmallGridSizes kSmallGrids;
+
 /// Whether registers have four groups of four lanes: floats of AVX-512.
 template <typename V>
 constexpr bool kFourGroups = kLanes<V> == 16;
@@ -97,7 +159,7 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
-  const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2).position;
+  const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2);
   Assembly sample[kFull + 1];
   for (std::size_t k = 0; k <= kFull; ++k) {
     sample[k] = Assembly(sources.of_register(k));

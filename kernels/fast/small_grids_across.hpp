@@ -1,4 +1,4 @@
-// Small grids (fast/small_grids.hpp) whose lanes are patches: on AVX2, and some squares on AVX-512.
+// Small grids (fast/small_grids.hpp) whose lanes are patches.
 //
 // Coefficients of a register of patches are turned on their way from memory, and samples on their
 // way back; in between no lane is idle, whatever the size of the grid. The last patches that do not

@@ -156,15 +156,14 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
   });
 }
 
-/// Whether the compiler knows squares of `side` samples that are faster so than in groups of lanes
-/// or, of doubles, in tiles, where registers are lines. Floats of 4 x 4 have kernels of their own
-/// (fast/squares_of_four.hpp).
+/// Whether the compiler knows squares of `side` samples where registers are lines. Floats of 4 x 4
+/// have kernels of their own (fast/squares_of_four.hpp), and doubles are faster so than in tiles.
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool is_known_across(std::size_t side) {
   constexpr bool kPositions = kOutputs == detail::kPosition;
   constexpr bool kNormals = kOutputs == detail::kPositionNormal;
   if constexpr (sizeof(T) == 4) {
-    return side == 5 && kNormals;
+    return side == 5 && !kPositions;
   } else {
     return (side == 4 && (kPositions || kNormals)) || (side == 5 && kPositions);
   }
@@ -174,10 +173,11 @@ constexpr bool is_known_across(std::size_t side) {
 /// together so only. Else there is a register of patches, and results go to planes that stay in the
 /// caches. Samples that leave them by plain stores are stored faster patch by patch: by lanes,
 /// parts of many lines are written in turns, and these are read first. Rows that are whole
-/// registers have tiles which find tangents as fast. Where registers are lines, there are such
-/// grids of mirrored squares only, staged ones are stored faster patch by patch as well, and idle
-/// lanes of the last register cost what is gained: an eighth of the patches at most where that is
-/// little, half of them elsewhere. Grids of two rows or columns have edges only.
+/// registers have tiles which find tangents as fast. Where registers are lines, there are floats
+/// with derivatives or normals, and mirrored squares of doubles; staged ones are stored faster
+/// patch by patch as well, unless a register has room for all samples of a patch; and idle lanes of
+/// the last register cost what is gained: half of the patches at most for positions, an eighth of
+/// them elsewhere. Grids of two rows or columns have edges only.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
@@ -194,10 +194,14 @@ SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   }
   if constexpr (kLineWide<vec<T>>) {
     const std::size_t idle = (kL - task.patch_count % kL) % kL; // lanes of the last register
-    constexpr bool kGainsLittle = sizeof(T) == 8 && kOutputs == detail::kPositionNormal;
-    const bool filled = (kGainsLittle ? 8 : 2) * idle <= task.patch_count;
-    return task.drain == nullptr && filled && is_known_across<kOutputs, T>(task.nu) &&
-           is_mirrored_square(task);
+    const bool filled = (kOutputs == detail::kPosition ? 2 : 8) * idle <= task.patch_count;
+    if constexpr (sizeof(T) == 4) {
+      const bool few = task.nu * (task.runs[1].rows + 2) <= kL;
+      return kOutputs != detail::kPosition && filled && (task.drain == nullptr || few);
+    } else {
+      return task.drain == nullptr && filled && is_known_across<kOutputs, T>(task.nu) &&
+             is_mirrored_square(task);
+    }
   } else {
     return kOutputs == detail::kPosition || task.nu != kL;
   }

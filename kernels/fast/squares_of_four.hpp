@@ -8,11 +8,12 @@
 //   lane e of the border         is an inner sample of edge e; a second register has the others,
 //   lane 2 v + u of the corners  is corner (u, v).
 // A component's samples fill one register, which takes two permutations. Larger grids fill groups
-// by themselves (fast/small_grids.hpp). The operations of a sample are those of tiles, and so are
-// its bits.
+// by themselves (fast/small_grids.hpp), and derivatives lanes that are patches. The operations of a
+// sample are those of tiles, and so are its bits.
 #pragma once
 
-#include "kernels/fast/small_grid_jets.hpp"
+#include "kernels/fast/small_grids.hpp"
+#include "kernels/grid/tile_normals.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -165,6 +166,22 @@ SIMDBEZIER_PART bool is_square_of_four(const GridTask<T>& task) {
   return task.nu == 4 && is_mirrored_square(task) && are_mirrored(task.x + 1, 2);
 }
 
+/// Looks again at the normals of a square that did not all pass the quick test.
+template <typename V>
+SIMDBEZIER_RARE void resolve_square_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch,
+                                            V squared, V floor) {
+  using T = ScalarOf<V>;
+  const T rows[4] = {T(-0.5), task.runs[1].y[0], task.runs[1].y[1], T(0.5)};
+  alignas(64) T x[kLanes<V>];
+  alignas(64) T y[kLanes<V>];
+  for (std::size_t k = 0; k < kLanes<V>; ++k) {
+    x[k] = task.x[k % 4];
+    y[k] = rows[k / 4];
+  }
+  const UncertainNormals all{0, kLanes<V>, kLanes<V>, 1, patch * task.patch_step, 0, 1};
+  resolve_normals(task, patch, all, load_vector<V>(x), load_vector<V>(y), squared, floor);
+}
+
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_KERNEL void sweep_squares_of_four(const GridTask<T>& shared_task) {
   using V = vec<T>;
@@ -197,8 +214,14 @@ SIMDBEZIER_KERNEL void sweep_squares_of_four(const GridTask<T>& shared_task) {
       }
     }
     if constexpr (kNormals) {
-      finish_small_normals(shared_task, patch, 0, kLanes<V>, broadcast<V>(task.normal_floor[patch]),
-                           s, store);
+      s.cross();
+      for (std::size_t c = 0; c < 3; ++c) {
+        store(Output::normal, c, s.normal[c]);
+      }
+      const V floor = broadcast<V>(task.normal_floor[patch]);
+      if (!all_of<V>(s.squared > floor)) [[unlikely]] {
+        resolve_square_normals(shared_task, patch, s.squared, floor);
+      }
     }
     drain_some(task.drain, (kNormals ? 6 : kJets ? 9 : 3) * std::size_t{16});
     coefficients += detail::kCoefficients;

@@ -13,7 +13,6 @@
 #include "kernels/fast/normal_bands.hpp"
 #include "kernels/fast/record_rows.hpp"
 #include "kernels/fast/row_bands.hpp"
-#include "kernels/fast/small_grid_jets.hpp"
 #include "kernels/fast/small_jets_across.hpp"
 #include "kernels/fast/square_sweeps.hpp"
 #include "kernels/fast/squares_of_four.hpp"
@@ -52,19 +51,6 @@ SIMDBEZIER_PART std::size_t bytes_of(const GridTask<T>& task, const RowPiece<T>&
   return piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
 }
 
-/// Small grids with patches as lanes.
-template <detail::OutputSet kOutputs, typename T>
-struct SmallAcross {
-  static constexpr GridStrategy kName = GridStrategy::small_across;
-  static constexpr bool kExists = kWideKernels && kUsual<kOutputs>;
-  static SIMDBEZIER_PART bool applies(const GridTask<T>& task) {
-    return is_closed_grid(task) && pays_across<kOutputs>(task);
-  }
-  static SIMDBEZIER_PART void run(const GridTask<T>& task) {
-    sweep_small_grid_across<kOutputs>(task);
-  }
-};
-
 /// Whether small grids have kernels in which a register is four groups of four lanes.
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 template <detail::OutputSet kOutputs, typename T>
@@ -80,26 +66,33 @@ struct SquaresOfFour {
   static constexpr GridStrategy kName = GridStrategy::squares_of_four;
   static constexpr bool kExists = kInFourGroups<kOutputs, T>;
   static SIMDBEZIER_PART bool applies(const GridTask<T>& task) {
-    return is_small_grid(task) && is_square_of_four(task);
+    return task.record <= 1 && is_small_grid(task) && is_square_of_four(task);
   }
   static SIMDBEZIER_PART void run(const GridTask<T>& task) {
     sweep_squares_of_four<kOutputs>(task);
   }
 };
 
-/// Small grids in groups of four lanes.
+/// Small grids with patches as lanes.
+template <detail::OutputSet kOutputs, typename T>
+struct SmallAcross {
+  static constexpr GridStrategy kName = GridStrategy::small_across;
+  static constexpr bool kExists = kWideKernels && kUsual<kOutputs>;
+  static SIMDBEZIER_PART bool applies(const GridTask<T>& task) {
+    return is_closed_grid(task) && pays_across<kOutputs>(task);
+  }
+  static SIMDBEZIER_PART void run(const GridTask<T>& task) {
+    sweep_small_grid_across<kOutputs>(task);
+  }
+};
+
+/// Positions of small grids in groups of four lanes.
 template <detail::OutputSet kOutputs, typename T>
 struct SmallGroups {
   static constexpr GridStrategy kName = GridStrategy::small_groups;
-  static constexpr bool kExists = kInFourGroups<kOutputs, T>;
+  static constexpr bool kExists = kOutputs == detail::kPosition && kInFourGroups<kOutputs, T>;
   static SIMDBEZIER_PART bool applies(const GridTask<T>& task) { return is_small_grid(task); }
-  static SIMDBEZIER_PART void run(const GridTask<T>& task) {
-    if constexpr (kOutputs == detail::kPosition) {
-      small_grid_positions(task);
-    } else {
-      sweep_small_jets<kOutputs == detail::kPositionNormal>(task);
-    }
-  }
+  static SIMDBEZIER_PART void run(const GridTask<T>& task) { small_grid_positions(task); }
 };
 
 /// Rows past the caches in order, each plane as one stream: if they are no whole registers, or lie
@@ -331,7 +324,7 @@ struct StrategyList {
 /// Those of whole tasks, and those of pieces of rows but for StreamedOrder.
 template <detail::OutputSet kOutputs, typename T>
 using TaskStrategies =
-    StrategyList<SmallAcross<kOutputs, T>, SquaresOfFour<kOutputs, T>, SmallGroups<kOutputs, T>>;
+    StrategyList<SquaresOfFour<kOutputs, T>, SmallAcross<kOutputs, T>, SmallGroups<kOutputs, T>>;
 template <detail::OutputSet kOutputs, typename T>
 using PieceStrategies =
     StrategyList<Records<kOutputs, T>, StreamedRows<kOutputs, T>, Squares<kOutputs, T>,

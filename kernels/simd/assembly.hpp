@@ -22,18 +22,13 @@ public:
             _mm512_set1_epi32(offset))),
         from_third_on_(_mm512_cmpge_epu32_mask(index_, _mm512_set1_epi32(32))) {}
 
-  SIMDBEZIER_INLINE vec<float> operator()(vec<float> first, vec<float> second,
-                                          vec<float> third) const {
-    const __m512 both = _mm512_permutex2var_ps(first, index_, second);
-    return vec<float>(_mm512_mask_permutexvar_ps(both, from_third_on_, index_, third));
-  }
   SIMDBEZIER_INLINE vec<float> operator()(vec<float> first, vec<float> second, vec<float> third,
                                           vec<float> fourth) const {
     const __m512 low = _mm512_permutex2var_ps(first, index_, second);
     const __m512 high = _mm512_permutex2var_ps(third, index_, fourth);
     return vec<float>(_mm512_mask_blend_ps(from_third_on_, low, high));
   }
-  /// This is operator() where all quads of the third register are alike: there is no second
+  /// Of three registers, the third of which has the same quad four times: there is no second
   /// permutation across lanes, which would cost a multiply-add.
   SIMDBEZIER_INLINE vec<float> with_quad(vec<float> first, vec<float> second,
                                          vec<float> quad) const {

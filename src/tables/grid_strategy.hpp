@@ -11,9 +11,9 @@ namespace simdbezier::detail {
 
 /// In the order in which they are asked whether they apply; `tiles` always does.
 enum class GridStrategy : std::uint8_t {
-  small_across,    ///< 3 x 3 to 6 x 6 samples, lanes are patches
   squares_of_four, ///< 4 x 4 samples, all components in one register
-  small_groups,    ///< 3 x 3 to 6 x 6 samples, lanes are groups of four
+  small_across,    ///< 3 x 3 to 6 x 6 samples, lanes are patches
+  small_groups,    ///< positions of 3 x 3 to 6 x 6 samples, lanes are groups of four
   streamed_order,  ///< past the caches, row after row, each plane as one stream
   records,         ///< triples and vertices, put together in registers
   streamed_rows,   ///< past the caches, two or three lines of a row side by side
@@ -28,8 +28,8 @@ inline constexpr std::size_t kGridStrategies = static_cast<std::size_t>(GridStra
 
 /// Names as the benchmark's --without spells them.
 inline constexpr std::string_view kGridStrategyNames[kGridStrategies] = {
-    "small_across", "squares_of_four", "small_groups", "streamed_order", "records", "streamed_rows",
-    "squares",      "bands",           "components",   "across_lines",   "strips",  "tiles"};
+    "squares_of_four", "small_across", "small_groups", "streamed_order", "records", "streamed_rows",
+    "squares",         "bands",        "components",   "across_lines",   "strips",  "tiles"};
 
 /// A set of strategies.
 class StrategySet {

@@ -174,7 +174,7 @@ std::string strategies_of(Isa isa) {
   switch (isa) {
   case Isa::avx512:
     return std::string(
-               "small_across squares_of_four small_groups streamed_order records squares bands ") +
+               "squares_of_four small_across small_groups streamed_order records squares bands ") +
            (slow ? "across_lines strips" : "strips");
   case Isa::avx2:
     return "small_across streamed_order records streamed_rows squares bands components strips";
