@@ -2,10 +2,19 @@
 // Only the tables leave this object; they are constants, so nothing runs at load time. The other
 // sources of this folder are compiled the same way.
 #include "kernels/grid/grid_kernel.hpp"
-#include "kernels/grid/split_stores.hpp"
 #include "kernels/pack/bicubic_pack_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Stores the register at `to` as often as it is asked for, one behind the other, as in a plane's
+/// rows: by that src/choice/line_costs.cpp finds out what stores across cache lines cost.
+template <typename T>
+SIMDBEZIER_KERNEL void store_registers(T* to, std::size_t registers) {
+  const vec<T> value = load_vector<vec<T>>(to);
+  for (std::size_t k = 0; k < registers; ++k) {
+    store_vector(to + k * kLanes<vec<T>>, value);
+  }
+}
 
 // The tables of this instruction set's other objects.
 extern const detail::ShapeTable<float> shape_table_f32;

@@ -6,8 +6,8 @@
 // nothing: what a tile keeps in registers is an operand in memory here.
 #pragma once
 
+#include "kernels/fast/band_plan.hpp"
 #include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/grid/shared_sets.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

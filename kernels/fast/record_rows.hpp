@@ -9,7 +9,7 @@
 // register begins within the one before it: what both hold is stored twice.
 #pragma once
 
-#include "kernels/fast/record_column.hpp"
+#include "kernels/fast/record_samples.hpp"
 #include "kernels/grid/prefetch.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

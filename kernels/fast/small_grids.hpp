@@ -20,7 +20,7 @@
 #include "kernels/grid/column_tile.hpp"
 #include "kernels/grid/prefetch.hpp"
 #include "kernels/simd/assembly.hpp"
-#include "kernels/simd/fours.hpp"
+#include "kernels/simd/quads.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

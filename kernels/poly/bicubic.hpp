@@ -8,7 +8,7 @@
 #pragma once
 
 #include "kernels/poly/columns.hpp"
-#include "kernels/simd/fours.hpp"
+#include "kernels/simd/quads.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

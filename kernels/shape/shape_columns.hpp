@@ -5,7 +5,7 @@
 
 #include "kernels/shape/column_polynomials.hpp"
 #include "kernels/shape/shape_edges.hpp"
-#include "kernels/simd/sample_quads.hpp"
+#include "kernels/simd/quads.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -1,6 +1,7 @@
 // The 128-bit lanes of a register: loads that bring each of them from another place, and
 // permutations that stay within them, which cost no multiply-add its turn (permutations across
-// lanes do).
+// lanes do). A group of four lanes is the four values that lie side by side in memory for one power
+// of X.
 //
 // A register has kQuads lanes of kQuad values: 4 floats or 2 doubles.
 #pragma once
@@ -11,6 +12,7 @@
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/quad_transpose.hpp"
+#include "kernels/simd/row_groups.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -150,6 +152,64 @@ SIMDBEZIER_INLINE bool all_equal(const std::uint32_t* index, std::uint32_t same)
     different |= index[i] ^ same;
   }
   return different == 0;
+}
+
+/// Whether a register of lanes is made of groups of four.
+template <typename V>
+constexpr bool kHasFours = kLanes<V> >= 4;
+
+/// Returns values[i] in lane i of every group.
+template <typename V>
+SIMDBEZIER_INLINE V repeat_four(const ScalarOf<V>* values) {
+  return RowGroups<kLanes<V> / 4, V>::repeat(values);
+}
+
+/// Loads four groups of four values that follow each other in memory.
+template <typename V>
+SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    four[i] = repeat_four<V>(values + 4 * i);
+  }
+}
+
+/// Takes groups of values that belong to powers 0 to 3 apart: there is a register for each power.
+template <typename V>
+SIMDBEZIER_INLINE void split_fours(V v, V power[4]) {
+  power[0] = broadcast_in_groups<4, 0>(v);
+  power[1] = broadcast_in_groups<4, 1>(v);
+  power[2] = broadcast_in_groups<4, 2>(v);
+  power[3] = broadcast_in_groups<4, 3>(v);
+}
+
+/// Loads lane q from the 128 bits at at(q).
+template <typename V, typename At>
+SIMDBEZIER_INLINE V quads_at(const At& at) {
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
+  const auto two = [&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(load_any<__m128>(at(q))),
+                                load_any<__m128>(at(q + 1)), 1);
+  };
+#endif
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  return __builtin_bit_cast(
+      V, _mm512_maskz_insertf32x8(0xffff, _mm512_castps256_ps512(two(0)), two(2), 1));
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+  return __builtin_bit_cast(V, two(0));
+#else
+  static_assert(kQuads<V> == 1);
+  return load_vector<V>(at(0));
+#endif
+}
+
+/// Spreads the values of each 128-bit lane: value k goes to all of the lane in each[k].
+template <typename V>
+SIMDBEZIER_INLINE void spread_quads(V v, V each[kQuad<V>]) {
+  each[0] = broadcast_in_groups<kQuad<V>, 0>(v);
+  each[1] = broadcast_in_groups<kQuad<V>, 1>(v);
+  if constexpr (kQuad<V> == 4) {
+    each[2] = broadcast_in_groups<kQuad<V>, 2>(v);
+    each[3] = broadcast_in_groups<kQuad<V>, 3>(v);
+  }
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

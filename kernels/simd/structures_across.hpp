@@ -4,7 +4,6 @@
 // shuffles turn them.
 #pragma once
 
-#include "kernels/simd/fours.hpp"
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/quads.hpp"
 #include "kernels/simd/repeat.hpp"

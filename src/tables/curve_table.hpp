@@ -50,7 +50,7 @@ struct CurveArrays {
   Isa executed;  ///< written by the kernel
 };
 
-/// Samples a curve with which kernels can write positions as rows: see curve/curve_row_kernel.hpp.
+/// Samples a curve with which kernels can write positions as rows: see curve/curve_kernel.hpp.
 inline constexpr std::size_t kLeastRow = 4;
 inline constexpr std::size_t kMostRow = 64;
 /// They stream rows of cubics without origins only: those of a register of samples up to these (see

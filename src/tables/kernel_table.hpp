@@ -12,7 +12,6 @@
 
 #include "src/storage/patch_arrays.hpp"
 #include "src/tables/grid_strategy.hpp"
-#include "src/tables/output_needs.hpp"
 
 namespace simdbezier {
 
@@ -24,6 +23,26 @@ constexpr std::size_t output_index(Output output) noexcept {
 }
 
 namespace detail {
+
+// Sets of outputs that need the same are constants: kernels may not read the table that they come
+// from, which would be one more symbol of all objects.
+
+/// Returns the outputs of patches of which is(Output) holds.
+template <typename Is>
+constexpr OutputSelection outputs_where(const Is& is) noexcept {
+  OutputSelection all;
+  for (std::size_t k = 0; k < kOutputs; ++k) {
+    if (is(static_cast<Output>(k))) {
+      all.add(static_cast<Output>(k));
+    }
+  }
+  return all;
+}
+/// Returns the outputs whose highest derivatives are of that order, and not those of lower ones.
+consteval OutputSelection outputs_of_order(int order) noexcept {
+  return outputs_where([order](Output output) { return derivative_order(output) == order; });
+}
+inline constexpr OutputSelection kSpaceOutputs = outputs_where(needs_space);
 
 /// Three planes of one vector output, unit stride; null where it was not asked for.
 template <typename T>
