@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 #include "src/mesh/layout/mesh_data.hpp"
 #include "src/mesh/vertices/patch_copies.hpp"
@@ -52,13 +53,13 @@ public:
   static constexpr std::uint32_t kMostRate = 5;
 
   [[nodiscard]] static std::size_t bytes(const MeshData& mesh) noexcept {
-    return samples_bytes(mesh) + PatchCopies<T>::bytes(kPatches + kMaxLanes);
+    return samples_bytes(mesh) + PatchCopies<T>::bytes(kPatches);
   }
   ClosedGrids(const MeshData& mesh, PatchRunner<T>& runner, bool normals,
               unsigned char* memory) noexcept
       : mesh_(mesh), topology_(*mesh.topology.data()), runner_(runner), normals_(normals),
         samples_(reinterpret_cast<VertexSample<T>*>(memory)), block_samples_(block_samples(mesh)),
-        copies_(kPatches + kMaxLanes, memory + samples_bytes(mesh)) {}
+        copies_(kPatches, memory + samples_bytes(mesh)) {}
 
   /// Says that one more patch's vertices are asked for.
   void count_patch() noexcept { ++passed_; }
@@ -85,7 +86,7 @@ private:
     [[nodiscard]] std::size_t key() const noexcept { return (v - 1) * kMostRate + u - 1; }
     [[nodiscard]] std::size_t samples() const noexcept { return std::size_t{u + 1} * (v + 1); }
   };
-  /// Patches of a block, or copies of them, one after the other.
+  /// Patches of a block one after the other, or the first copies.
   struct Group {
     std::size_t first;
     std::size_t count;
@@ -148,15 +149,12 @@ private:
       sort_members(keys, count, member, end);
     }
     const bool copied = can_copy && !(alike && together);
-    if (copied) {
-      const std::size_t last = keys[member[count - 1]];
-      make_copies(first, member, count, count - (last == 0 ? 0 : end[last - 1]));
-    }
     for (std::size_t at = 0; at < count;) {
       const Rates rates = Rates::of_key(keys[member[at]]);
       std::size_t behind = end[keys[member[at]]];
       if (copied) {
-        evaluate({at, behind - at, rates}, &bucket, samples);
+        copy(first, {member + at, behind - at}, at == 0 ? runner_.lanes() : 0);
+        evaluate({0, behind - at, rates}, &bucket, samples);
       } else {
         const std::size_t patch = first + member[at];
         std::size_t more = 1;
@@ -212,24 +210,16 @@ private:
     }
   }
 
-  /// Copies the members of groups in the order in which they are read fastest. If the last group,
-  /// of `last_count` members, fills no register, more copies of its last one follow.
-  void make_copies(std::size_t first, const std::uint8_t* member, std::size_t count,
-                   std::size_t last_count) noexcept {
-    std::uint8_t copy[kPatches];
-    for (std::size_t k = 0; k < count; ++k) {
-      copy[member[k]] = static_cast<std::uint8_t>(k);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      runner_.copy(first + k, copies_, copy[k]);
-    }
-    for (std::size_t k = last_count; k < runner_.lanes(); ++k) {
-      runner_.copy(first + member[count - 1], copies_, count + k - last_count);
+  /// Copies the members of a group, and the last one once more for each of `least` copies that is
+  /// left.
+  void copy(std::size_t first, std::span<const std::uint8_t> members, std::size_t least) noexcept {
+    for (std::size_t k = 0; k < std::max(members.size(), least); ++k) {
+      runner_.copy(first + members[std::min(k, members.size() - 1)], copies_, k);
     }
   }
 
-  /// bucket: that of the copies; null where they are patches. Copies behind the last one of a group
-  /// fill its register; the next group writes over their samples.
+  /// bucket: that of the copies; null where they are patches. Copies of the groups before fill a
+  /// group's register; the next group writes over their samples.
   void evaluate(const Group& group, const std::uint32_t* bucket, VertexSample<T>* to) noexcept {
     T x[kMostRate + 1 + kMaxLanes];
     T y[kMostRate + 1 + kMaxLanes];
@@ -244,8 +234,7 @@ private:
     const PieceParameters<T> piece{x, nu + std::size_t{1}, inner ? runs : ends,
                                    inner ? std::size_t{3} : std::size_t{2}, group.rates.samples()};
     if (bucket != nullptr) {
-      runner_.sample(copies_, *bucket, group.first, std::max(group.count, runner_.lanes()), piece,
-                     to);
+      runner_.sample(copies_, *bucket, std::max(group.count, runner_.lanes()), piece, to);
     } else {
       runner_.sample(group.first, group.count, piece, to);
     }

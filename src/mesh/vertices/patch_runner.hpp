@@ -95,13 +95,12 @@ public:
       aim(grid_, {bucket, kernels_.set->place(patch).index + first}, target);
     });
   }
-  /// The same of copies of patches of one bucket, from copy `first` on.
-  void sample(const PatchCopies<T>& copies, std::uint32_t bucket, std::size_t first,
-              std::size_t count, const PieceParameters<T>& piece, VertexSample<T>* to) noexcept {
-    make_samples(bucket, count, piece, to, [&](std::size_t more, const PieceTarget<T>& target) {
+  /// The same of the first copies of patches of one bucket.
+  void sample(const PatchCopies<T>& copies, std::uint32_t bucket, std::size_t count,
+              const PieceParameters<T>& piece, VertexSample<T>* to) noexcept {
+    make_samples(bucket, count, piece, to, [&](std::size_t first, const PieceTarget<T>& target) {
       aim(grid_, {bucket, 0}, target);
-      static_cast<PatchArrays<T>&>(grid_) =
-          copies.arrays(kernels_.set->buckets[bucket], first + more);
+      static_cast<PatchArrays<T>&>(grid_) = copies.arrays(kernels_.set->buckets[bucket], first);
       grid_.prefetch = false;
     });
   }
