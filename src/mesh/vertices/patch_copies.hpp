@@ -52,14 +52,11 @@ private:
   /// strings, which takes longer to start than these lines to be copied. Lines of the patches that
   /// the next block has are asked for, since members of groups come in no order.
   static void copy_lines(const void* from, std::size_t bytes, void* to) noexcept {
-    typedef float Quad __attribute__((vector_size(16)));
     const auto* const source = static_cast<const unsigned char*>(from);
     auto* const target = static_cast<unsigned char*>(to);
     for (std::size_t at = 0; at < bytes; at += 64) {
       __builtin_prefetch(source + kAhead * bytes + at, 0, 2);
-      Quad quad[4];
-      std::memcpy(quad, source + at, sizeof quad);
-      std::memcpy(target + at, quad, sizeof quad);
+      std::memcpy(target + at, source + at, 64);
     }
   }
 
