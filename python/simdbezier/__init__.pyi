@@ -218,6 +218,7 @@ def tessellate(
     point_size: float = 0.0,
     drop_repeated: bool = False,
     longest_edge: Optional[float] = None,
+    thorough: bool = False,
     dtype: Optional[DTypeLike] = None,
     threads: int = 0,
     homogeneous: bool = False,

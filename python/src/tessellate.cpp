@@ -174,8 +174,9 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
                              const py::object& orient, const py::object& flip,
                              const py::object& snap, const py::object& split_edges,
                              const py::object& point_size, const py::object& drop_repeated,
-                             const py::object& longest_edge, const py::object& dtype,
-                             const py::object& threads, const py::object& homogeneous) {
+                             const py::object& longest_edge, const py::object& thorough,
+                             const py::object& dtype, const py::object& threads,
+                             const py::object& homogeneous) {
   const std::vector<const GivenSpline*> splines = given_splines(points);
   if (!splines.empty() && (!weights.is_none() || flag(homogeneous, "homogeneous"))) {
     throw_value_error(weights.is_none() ? "homogeneous" : "weights",
@@ -194,6 +195,7 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
   options.crease_degrees = crease_degrees(crease);
   options.rates.longest_edge =
       positive(number_or_infinity(longest_edge, "longest_edge"), false, "longest_edge");
+  options.rates.thorough = flag(thorough, "thorough");
   options.normals = flag(normals, "normals");
   options.parameters = flag(parameters, "parameters");
   options.topology.orient = flag(orient, "orient");
@@ -240,7 +242,8 @@ void add_tessellate(py::module_& module) {
          py::arg("orient") = false, py::arg("flip") = false, py::arg("snap") = 0.0,
          py::arg("split_edges") = false, py::arg("point_size") = 0.0,
          py::arg("drop_repeated") = false, py::arg("longest_edge") = py::none(),
-         py::arg("dtype") = py::none(), py::arg("threads") = 0, py::arg("homogeneous") = false,
+         py::arg("thorough") = false, py::arg("dtype") = py::none(), py::arg("threads") = 0,
+         py::arg("homogeneous") = false,
          "A closed mesh of all patches, or of a SplineSurface or several, within a tolerance of "
          "their surface.");
 }

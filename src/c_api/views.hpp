@@ -60,6 +60,7 @@ void set_limits(RateOptions& options, const Given<Struct>& known) {
   options.tolerances = SIMDBEZIER_SPAN(known, tolerances);
   options.longest_edge = limit_of(known.longest_edge);
   options.normal_degrees = limit_of(known.normal_degrees);
+  options.thorough = known.thorough != 0;
 }
 
 template <typename Struct>

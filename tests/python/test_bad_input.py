@@ -200,6 +200,7 @@ CASES = [
     (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, 0.1, longest_edge=0)),
     (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, grid=4, longest_edge=np.nan)),
     (TypeError, 'normals', lambda: simdbezier.tessellate(POINTS, 0.1, normals='smooth')),
+    (TypeError, 'thorough', lambda: simdbezier.tessellate(POINTS, 0.1, thorough='very')),
     (TypeError, 'threads', lambda: simdbezier.tessellate(POINTS, 0.1, threads='all')),
     (ValueError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=1)),
     (ValueError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=(3, 3, 3))),

@@ -142,6 +142,11 @@ def test_options_of_a_mesh():
     flipped = simdbezier.tessellate(points, grid=5, flip=True)
     np.testing.assert_array_equal(flipped.normals, -few.normals)
     assert simdbezier.tessellate(points, longest_edge=0.5).triangles.size > 0
+    uneven = points * [1, 1, 0.2]
+    uneven[..., 0] **= 3
+    fewer = simdbezier.tessellate(uneven, tolerance=1e-3, thorough=True)
+    assert len(fewer.triangles) < len(simdbezier.tessellate(uneven, tolerance=1e-3).triangles)
+    assert fewer.deviation <= 1e-3
     several = simdbezier.tessellate(points, tolerance=[1e-2, 1e-2, 1e-2, 1e-4])
     assert several.deviations[3] <= 1e-4 < several.deviations[0]
     assert repr(few).startswith('<simdbezier.Mesh: 81 vertices, 128 triangles, within ')

@@ -132,6 +132,7 @@ const OPTIONS = [
 const MORE_OPTIONS = [
   [{ tolerance: 0.01, relative: 2e-3 }, ['--tolerance', '0.01', '--relative', '2e-3']],
   [{ grid: [7, 5] }, ['--grid', '7x5']],
+  [{ relative: 1e-3, thorough: true }, ['--relative', '1e-3', '--thorough']],
   [{ relative: 1e-3, crease: 30, parameters: true }, ['--relative', '1e-3', '--crease', '30', '--parameters']],
   [{ relative: 1e-3, normals: false, orient: true, flip: true, snap: 1e-3 },
     ['--relative', '1e-3', '--no-normals', '--orient', '--flip', '--snap', '1e-3']],

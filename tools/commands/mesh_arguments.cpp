@@ -257,6 +257,10 @@ MeshArguments parse_mesh_arguments(const Words& words) {
   if (mesh.pixels) {
     mesh.camera = parse_camera(words);
   }
+  mesh.thorough = words.has("--thorough");
+  if (mesh.thorough && !mesh.tolerance && !mesh.relative && !mesh.pixels) {
+    bad_usage("--thorough: expected with --tolerance, --relative or --pixels, found without");
+  }
   return mesh;
 }
 

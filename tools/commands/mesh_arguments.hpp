@@ -44,6 +44,7 @@ struct MeshArguments {
   std::optional<double> pixels;
   std::optional<double> angle; ///< in degrees
   Camera camera;
+  bool thorough = false; ///< a search for fewer triangles, see RateOptions
 
   [[nodiscard]] bool adaptive() const noexcept { return tolerance || relative || pixels || angle; }
 };

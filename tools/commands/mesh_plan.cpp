@@ -62,6 +62,7 @@ void set_resolution(const Arguments& arguments, const PlannedModel& model, MeshO
   options.pixels = mesh.pixels.value_or(kUnlimited);
   options.camera = mesh.camera;
   options.rates.normal_degrees = mesh.angle.value_or(kUnlimited);
+  options.rates.thorough = mesh.thorough;
 }
 
 } // namespace

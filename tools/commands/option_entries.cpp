@@ -35,7 +35,8 @@ void add_resolution(Entries& entries) {
        {"--picture", "WxH", "WxH, each from 1 to 65536",
         "The picture's size in pixels (default 1920x1080)", command},
        {"--angle", "DEG", "degrees above 0 and at most 180",
-        "About the largest angle between normals of neighbouring vertices", command}});
+        "About the largest angle between normals of neighbouring vertices", command},
+       {"--thorough", "", "", "Fewer triangles within the distance, in more time", command}});
 }
 
 // Adds the options that say what a mesh consists of.

@@ -5,7 +5,7 @@ const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY'
   'nonManifoldEdges', 'ignoredTrims', 'vertices', 'triangles', 'deviation', 'stride', 'indexBytes', 'vertexData',
   'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'sampleStep', 'statusData', 'fileData', 'fileBytes'];
 const MESH_VALUES = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
-  'flip', 'bits'];
+  'flip', 'thorough', 'bits'];
 const MESH_OPTIONS = ['grid', 'weld', ...MESH_VALUES.filter((name) => name !== 'nu' && name !== 'nv')];
 const SAMPLE_OPTIONS = ['outputs', 'layout', 'watertight', 'copy'];
 const LINES = { least: 2, most: 2 ** 20, whole: true }; // of a grid
@@ -290,7 +290,7 @@ class PatchSet {
     if ((adaptive === undefined) === (wish.nu === undefined)) {
       fail('expected either a grid or some of tolerance, relative and angle');
     }
-    const flags = ['parameters', 'orient', 'flip', 'normals'];
+    const flags = ['parameters', 'orient', 'flip', 'thorough', 'normals'];
     this.#expect(withMemory(this.#wasm, 8 * MESH_VALUES.length, (at) => {
       new Float64Array(this.#wasm.memory.buffer, at, MESH_VALUES.length)
         .set(MESH_VALUES.map((name) => flags.includes(name) ? (wish[name] ? 1 : 0) : wish[name] ?? NaN));

@@ -39,6 +39,7 @@ tools::Arguments arguments_of(const MeshWish& wish, tools::MeshFormat format) {
   mesh.parameters = wish.parameters != 0;
   mesh.orient = wish.orient != 0;
   mesh.flip = wish.flip != 0;
+  mesh.thorough = wish.thorough != 0;
   mesh.storage = wish.bits == 8    ? tools::VertexStorage::quantised_8
                  : wish.bits == 16 ? tools::VertexStorage::quantised_16
                                    : tools::VertexStorage::full;

@@ -26,6 +26,7 @@ struct MeshWish {
   double parameters;
   double orient;
   double flip;
+  double thorough;
   double bits; ///< of a quantised component: 8 or 16
 };
 

@@ -124,6 +124,7 @@ typedef struct simdbezier_mesh_options {
   int32_t threads;
   simdbezier_isa isa;
   int32_t split_edges; // not 0: patches are cut at corners of others on their open sides
+  int32_t thorough;    // as in simdbezier_rate_options
 } simdbezier_mesh_options;
 
 typedef struct simdbezier_mesh simdbezier_mesh;

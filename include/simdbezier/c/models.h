@@ -91,6 +91,7 @@ typedef struct simdbezier_rate_options {
   int32_t threads;
   simdbezier_isa isa;
   double keep; // rates hold those of the frame before; below 1: none is kept
+  int32_t thorough;
 } simdbezier_rate_options;
 
 // Camera. Zeros: its usual values.

@@ -33,6 +33,7 @@ const std::vector<std::vector<std::string>> kResolutions = {
     {},
     {"--relative", "1e-1"},
     {"--relative", "1e-3"},
+    {"--relative", "1e-3", "--thorough"},
     {"--angle", "20"},
     {"--relative", "1e-3", "--precision", "f64"}};
 
@@ -77,6 +78,14 @@ TEST(WeldedMesh, HasEveryPositionOfTheTeapotOnce) {
   for (const auto& face : mesh.faces) {
     EXPECT_GT(dot(turn(mesh, face), turn(mesh, face)), 0);
   }
+}
+
+TEST(WeldedMesh, HasFewerTrianglesByAThoroughSearch) {
+  const ReadMesh usual = welded("builtin:teapot", {"--relative", "1e-3"});
+  const ReadMesh thorough = welded("builtin:teapot", {"--relative", "1e-3", "--thorough"});
+  EXPECT_LT(5 * thorough.faces.size(), 4 * usual.faces.size());
+  ASSERT_TRUE(thorough.deviation && usual.deviation);
+  EXPECT_LE(*thorough.deviation, 1.05 * *usual.deviation);
 }
 
 TEST(WeldedMesh, IsOneMeshInAllFormats) {

@@ -39,6 +39,7 @@ const std::vector<OptionsCase>& option_cases() {
       {"ply", {"--grid", "5x3", "--flip"}},
       {"ply", {"--relative", "1e-2"}},
       {"stl", {"--relative", "1e-3"}},
+      {"ply", {"--relative", "1e-3", "--thorough"}},
       {"ply", {"--tolerance", "0.05", "--precision", "f64", "--no-normals"}},
       {"stl", {"--grid", "3", "--precision", "f64"}},
       {"ply", {"--relative", "1e-2", "--crease", "20", "--parameters"}},
