@@ -126,8 +126,6 @@ std::vector<Case> option_cases(const std::vector<double>& tolerances,
        [](auto& o) { o.longest_edge = 0.5; }},
       {"normal_degrees", [](auto& o) { o.rates.normal_degrees = 3; },
        [](auto& o) { o.normal_degrees = 3; }},
-      {"thorough", [](auto& o) { o.rates.tolerance = 3e-3, o.rates.thorough = true; },
-       [](auto& o) { o.tolerance = 3e-3, o.thorough = 1; }},
       {"grid", [](auto& o) { o.rates = {}, o.nu = 4, o.nv = 6; },
        [](auto& o) { o.tolerance = 0, o.nu = 4, o.nv = 6; }},
       {"snap", [](auto& o) { o.topology.snap = 0.1; }, [](auto& o) { o.snap = 0.1; }},
@@ -169,6 +167,51 @@ TEST(CMeshOptions, AreThoseOfCpp) {
     different.push_back(found);
     simdbezier_mesh_free(mesh);
   }
+}
+
+/// A patch whose parameters run unevenly.
+TEST(CMeshOptions, Thorough) {
+  constexpr double kAlong[] = {0, 0.05, 0.9, 1.4};
+  constexpr double kWide[] = {0, 0.02, 0.25, 0.3};
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 16; ++k) {
+    const std::size_t j = k / 4;
+    const double height = j > 1 ? 0.2 * static_cast<double>(j) : 0;
+    values.insert(values.end(), {kAlong[k % 4], kWide[k % 4] * (j > 0 ? 1 : 0.3), height});
+  }
+  const simdbezier_nets nets = c_nets(values, 3, 3);
+  std::vector<std::size_t> triangles;
+  for (const bool thorough : {false, true}) {
+    MeshOptions options;
+    options.rates.tolerance = 5e-3;
+    options.rates.thorough = thorough;
+    const Mesh<double> expected = tessellate<double>(ControlNets<double>::packed(values), options);
+    auto c_options = sized<simdbezier_mesh_options>();
+    c_options.tolerance = 5e-3;
+    c_options.thorough = thorough ? 1 : 0;
+    simdbezier_mesh* mesh = nullptr;
+    ASSERT_EQ(simdbezier_tessellate(&nets, 1, SIMDBEZIER_F64, &c_options, &mesh), SIMDBEZIER_OK);
+    EXPECT_TRUE(found_in(mesh) == found_in(expected));
+    triangles.push_back(expected.triangles.size());
+    simdbezier_mesh_free(mesh);
+
+    std::vector<std::uint32_t> rates[2] = {{0}, {0}};
+    std::vector<std::uint16_t> diagonals(1);
+    auto c_rates = sized<simdbezier_rates>();
+    c_rates.cells_u = rates[0].data();
+    c_rates.cells_v = rates[1].data();
+    c_rates.diagonals = diagonals.data();
+    c_rates.cells_u_length = c_rates.cells_v_length = c_rates.diagonals_length = 1;
+    auto rate_options = sized<simdbezier_rate_options>();
+    rate_options.tolerance = 5e-3;
+    rate_options.thorough = thorough ? 1 : 0;
+    simdbezier_topology* topology = nullptr;
+    ASSERT_EQ(simdbezier_find_topology(&nets, 1, nullptr, &topology), SIMDBEZIER_OK);
+    ASSERT_EQ(simdbezier_choose_rates(&nets, 1, topology, &rate_options, &c_rates), SIMDBEZIER_OK);
+    EXPECT_EQ(2 * rates[0][0] * rates[1][0], expected.triangles.size());
+    simdbezier_topology_free(topology);
+  }
+  EXPECT_GT(triangles[0], 2 * triangles[1]);
 }
 
 /// Two patches above each other, beside one that is as high as both, which they touch or do not

@@ -97,6 +97,7 @@ TEST(Thorough, never_has_more_cells) {
     SCOPED_TRACE(patch.name);
     std::size_t kind = 0;
     for (RateOptions options : {RateOptions(), edges, angles, long_cells}) {
+      const Choices coarse({patch}, options); // what is asked for besides a distance
       for (const double tolerance : {1e-2, 1e-3}) {
         options.tolerance = tolerance;
         options.thorough = false;
@@ -107,6 +108,8 @@ TEST(Thorough, never_has_more_cells) {
         if (usual.status == Status::ok) { // weights far apart allow no bound of edges
           EXPECT_LE(thorough.cells(), usual.cells());
           EXPECT_LE(thorough.deviation[0], tolerance);
+          EXPECT_GE(thorough.nu[0], kind > 0 ? coarse.nu[0] : 1);
+          EXPECT_GE(thorough.nv[0], kind > 0 ? coarse.nv[0] : 1);
           fewer[kind] += thorough.cells() < usual.cells() ? 1 : 0;
         }
       }

@@ -123,17 +123,12 @@ public:
     });
   }
 
-  /// Takes fewer cells than chosen ones where a thorough search finds them; all certificates are
-  /// thorough from now on. Rates that separate_vertices() might raise stay: where it depends on
-  /// neighbours, so does how far.
+  /// Takes fewer cells than chosen ones where a thorough search finds them. All certificates are
+  /// thorough from now on.
   Report choose_fewer() {
     thorough_ = true;
-    for (const std::uint32_t side : topology_.loops) {
-      is_final_[side / kPatchEdges] = 1;
-    }
     const auto is_open = [&](std::size_t patch, bool) {
-      return is_final_[patch] == 0 && (topology_.flags[patch] & kEntangled) == 0 &&
-             rates(patch).product() > 1;
+      return is_final_[patch] == 0 && rates(patch).product() > 1;
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
       const auto chosen = lanes_of(open, uncertified({1, 1}), [&](std::size_t patch) {
@@ -141,8 +136,8 @@ public:
                               out_.diagonals[patch]};
       });
       Lanes<CellCounts> least;
-      open.for_lanes([&](std::size_t lane, std::size_t patch) {
-        least[lane] = measured(open.bound(), lane, fewest_separate(patch));
+      open.for_lanes([&](std::size_t lane, std::size_t) {
+        least[lane] = measured(open.bound(), lane, {1, 1});
       });
       const auto fewer = open.bound().fewer(chosen, least, tolerances(open), most_);
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
@@ -218,14 +213,6 @@ private:
   /// Whether more is asked for than a distance.
   [[nodiscard]] bool measures() const {
     return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_degrees);
-  }
-  /// So few cells of a patch as are chosen need not be raised.
-  [[nodiscard]] CellCounts fewest_separate(std::size_t patch) const {
-    const Side* const sides = &topology_.sides[kPatchEdges * patch];
-    const bool has_point =
-        std::any_of(sides, sides + kPatchEdges, [](const Side& side) { return side.collapsed(); });
-    const std::uint32_t few = has_point || has_corner(patch) ? 3 : 1;
-    return {std::min(few, out_.cells_u[patch]), std::min(few, out_.cells_v[patch])};
   }
   /// Raises rates to what is asked for besides a distance.
   [[nodiscard]] CellCounts measured(const GroupBound& bound, std::size_t lane,
