@@ -9,6 +9,7 @@
 
 #include "kernels/pack/pack_formulas.hpp"
 #include "kernels/pack/pack_groups.hpp"
+#include "kernels/pack/shape_pack_io.hpp"
 #include "kernels/pack/zero_signs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -47,6 +48,12 @@ public:
       from = packed;
       stride = kNet;
     }
+    if (task_.far && !(task_.streaming && kLineWide<vec<T>>)) {
+      ask_ahead(from, kNet);
+      ask_ahead(task_.coefficients + first * kNet, kNet);
+      ask_ahead(task_.edges + first * detail::kEdgeBlock, detail::kEdgeBlock);
+      ask_ahead(task_.control_points + first * kNet, kNet);
+    }
     Lanes lanes;
     const Wide squares = read(from, stride, lanes);
     form(lanes);
@@ -67,17 +74,9 @@ private:
 
   /// Copies nets of any layout to kWideLanes packed ones; the last is repeated.
   void gather(std::size_t first, std::size_t count, S* packed) const {
-    const ControlNets<S>& nets = task_.nets;
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      const auto patch = static_cast<std::ptrdiff_t>(first + (p < count ? p : count - 1));
-      const S* const net = nets.points + patch * nets.patch_stride;
-      for (int k = 0; k < 16; ++k) {
-        const S* const point = net + k / 4 * nets.row_stride + k % 4 * nets.point_stride;
-        for (int c = 0; c < 3; ++c) {
-          *packed++ = point[c * nets.component_stride];
-        }
-      }
-    }
+    NetReader<T, S> reader(task_.nets, task_.relative_to);
+    reader.begin(first, count);
+    reader.copy(kWideLanes, packed);
   }
 
   /// Packs the last, incomplete group of a range: it is computed whole, and copied in part. Stores
@@ -98,6 +97,7 @@ private:
     whole.origins = task_.origins == nullptr ? nullptr : origins;
     whole.normal_floor = floors;
     whole.streaming = false;
+    whole.far = false;
     const bool safe = BicubicGroup(whole).pack(0, kWideLanes);
     put_rest(coefficients, kNet, first, count, task_.coefficients);
     put_rest(edges, detail::kEdgeBlock, first, count, task_.edges);
@@ -113,6 +113,14 @@ private:
                        Value* to) {
     for (std::size_t k = 0; k < count * values; ++k) {
       to[first * values + k] = from[k];
+    }
+  }
+
+  /// Asks for the lines of patches two groups on, which loads and stores would wait for.
+  template <typename Value>
+  SIMDBEZIER_INLINE void ask_ahead(const Value* patch, std::size_t values) const {
+    for (std::size_t k = 0; k < kWideLanes * values; k += 64 / sizeof(Value)) {
+      __builtin_prefetch(patch + 2 * kWideLanes * values + k);
     }
   }
 

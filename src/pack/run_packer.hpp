@@ -21,8 +21,8 @@ public:
   RunPacker(const ControlNets<S>& nets, const PackRun& run, const PackOptions& options,
             const KernelTable<T>& table, const PatchStorage<T>& storage)
       : nets_(nets), run_(run), options_(options), table_(table), storage_(storage),
-        streaming_(
-            exceeds_caches(storage.count * storage.bytes_of_patch(storage.origins != nullptr))) {}
+        bytes_(storage.count * storage.bytes_of_patch(storage.origins != nullptr)),
+        streaming_(exceeds_caches(bytes_)) {}
 
   /// Packs patches [begin, end) of the run up to the first fault.
   [[nodiscard]] Report pack(std::size_t begin, std::size_t end) const {
@@ -50,7 +50,8 @@ private:
         writable_points<S>(storage_.given) + run_.place * shape.control_values(),
         storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins(),
         storage_.normal_floor + run_.place * shape.floors(),
-        streaming_};
+        streaming_,
+        bytes_ > second_level_cache()};
     return shape.is_bicubic() && !table_.compact
                ? packing_kernel<S>(table_)(task, begin, end)
                : packing_kernel<S>(*table_.shapes)(task, begin, end);
@@ -61,7 +62,8 @@ private:
   const PackOptions& options_;
   const KernelTable<T>& table_;
   const PatchStorage<T>& storage_;
-  bool streaming_; ///< the set would not stay in the caches
+  std::size_t bytes_; ///< of the set's patches of this shape
+  bool streaming_;    ///< the set would not stay in the caches
 };
 
 /// The highest of `count` normal floors; infinity where the lowest is so much lower that most

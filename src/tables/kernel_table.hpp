@@ -183,6 +183,7 @@ struct PackTask {
   /// The kernel of bicubic nets goes past the caches where lines are whole; KernelTable::fence()
   /// completes that.
   bool streaming;
+  bool far; ///< the arrays would not stay in the second-level cache: their lines are asked for
 };
 
 /// Patches [begin, end) have been packed, but something among them may not be finite, and what
