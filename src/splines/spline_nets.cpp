@@ -65,7 +65,8 @@ void SplineCutter<S>::store(const double* line, std::size_t j,
     const double* from = line + spline_->u->begin(span) * out.channels;
     S* to = out.points + static_cast<std::ptrdiff_t>(span) * out.patch_stride +
             static_cast<std::ptrdiff_t>(j) * out.row_stride;
-    if (out.packed && !project) { // mostly
+    __builtin_prefetch(to + 8 * out.patch_stride); // stores would wait for it
+    if (out.packed && !project) {                  // mostly
       const auto round = [&](std::size_t count) {
         for (std::size_t k = 0; k < count; ++k) {
           to[k] = static_cast<S>(from[k]) + S(0);
