@@ -41,8 +41,7 @@ simdbezier_add_sources(mesh/layout O3 mesh_layout.cpp mesh_parts.cpp separation.
 simdbezier_add_sources(mesh/primitives O3 write_primitives.cpp write_triangles.cpp)
 simdbezier_add_sources(mesh/vertices O3 evaluate_formatted.cpp evaluate_mesh.cpp)
 simdbezier_add_sources(mesh/vertices O2 split_creases.cpp)
-simdbezier_add_sources(certificate O3 certificate.cpp curve_certificate.cpp
-                       largest_position_bound.cpp)
+simdbezier_add_sources(certificate O3 certificate.cpp curve_certificate.cpp)
 simdbezier_add_sources(exact O3 prime_field.cpp)
 simdbezier_add_sources(exact O2 normal_fallback.cpp tangent_fallback.cpp)
 simdbezier_add_sources(pack O2 iso_curves.cpp pack.cpp pack_curves.cpp set_layout.cpp)

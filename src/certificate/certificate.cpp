@@ -7,6 +7,7 @@
 
 #include "src/certificate/certificate_sums.hpp"
 #include "src/certificate/position_bounds.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/patch_storage.hpp"
@@ -313,5 +314,27 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
 template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<float>&, std::size_t, Isa) noexcept;
 template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<double>&, std::size_t,
                                                  Isa) noexcept;
+
+template <typename T>
+double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
+  Isa chosen = Isa::automatic;
+  if (resolve_isa(isa, chosen) != Status::ok) {
+    return set.empty() ? 0 : std::numeric_limits<double>::infinity();
+  }
+  const detail::DefaultFpEnvironment environment; // bounds may be denormal
+  double largest = 0;
+  for (std::size_t patch = 0; patch < set.size();) {
+    constexpr std::size_t kBlock = 32;
+    detail::PositionBound bounds[kBlock];
+    const std::size_t end = std::min(set.size(), patch + kBlock);
+    detail::find_position_bounds(set, chosen, patch, end, bounds);
+    for (const detail::PositionBound* at = bounds; patch < end; ++patch, ++at) {
+      largest = std::max(largest, *std::max_element(at->begin(), at->begin() + set.components()));
+    }
+  }
+  return largest;
+}
+
+SIMDBEZIER_EXPORT_BOTH_TYPES(largest_position_bound);
 
 } // namespace simdbezier

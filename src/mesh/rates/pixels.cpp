@@ -206,7 +206,7 @@ Status pixel_tolerances(std::span<const ControlNets<S>> nets, const Camera& came
   }
   std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
-    camera_view.write_tolerances(view, pixels, &out[first]);
+    camera_view.write_tolerances(view, pixels, out.data() + first);
     first += view.count;
   }
   return Status::ok;
