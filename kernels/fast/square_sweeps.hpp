@@ -64,9 +64,12 @@ constexpr bool kIsStagedStream = (kSide <= kLanes<vec<T>> + 1) &&
                                  ((kSide * 2 == kLanes<vec<T>>) ||
                                   (kOutputs == detail::kPositionDerivatives));
 
-/// Whether straight code pays for them on any machine: not where roots set the pace.
-template <detail::OutputSet kOutputs, std::size_t kSide>
-constexpr bool kIsStraight = kOutputs != detail::kPositionNormal || kSide != 16;
+/// Whether straight code pays for them on any machine: not where roots set the pace, nor for
+/// derivatives of rows of four registers, which are faster side by side, in bands.
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
+constexpr bool kIsStraight = kOutputs == detail::kPositionNormal        ? kSide != 16
+                             : kOutputs == detail::kPositionDerivatives ? kSide < 4 * kLanes<vec<T>>
+                                                                        : true;
 
 /// Whether rows of such squares have a column or a part of a register behind whole ones, which
 /// straight code has for machines with cheap stores across lines. Normals are the same everywhere.
@@ -92,7 +95,7 @@ SIMDBEZIER_INLINE bool with_square_of(std::index_sequence<kSides...> /*sides*/,
             return true;
           }
         }
-        if constexpr (kIsStraight<kOutputs, kSide>) {
+        if constexpr (kIsStraight<kOutputs, kSide, T>) {
           if (!kSharesLines<kOutputs, kSide, T> || !task.by_lines) {
             visit.template operator()<SquarePiece<T, kSide, false>>();
             return true;
