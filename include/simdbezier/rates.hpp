@@ -41,11 +41,10 @@ struct RateOptions {
   /// no rates are read or kept. plan_mesh() ignores this member.
   double keep = 0;
   /// For models that stay: fewer triangles, in more time. Wherever 1/1.6 of a patch's cells may be
-  /// enough, and about 1024 are, fewer cells are searched for with bounds on point sets. There are
-  /// never more than by default, unless separate_vertices() has to raise them. Gumbo has 43, 31 and
-  /// 28 % fewer triangles at 1e-2, 1e-3 and 1e-4 of its size, and octants of spheres have half of
-  /// them. Rates take 2 to 8 us for each triangle (AVX2), and up to 0.1 s a patch. The default is
-  /// for models that move.
+  /// enough, and about 1024 are, fewer cells are searched for with bounds on point sets. No patch
+  /// has more than by default. Gumbo has 43, 31 and 28 % fewer triangles at 1e-2, 1e-3 and 1e-4 of
+  /// its size, and octants of spheres have half of them. Rates take 2 to 8 us for each triangle
+  /// (AVX2), and up to 0.1 s a patch. The default is for models that move.
   bool thorough = false;
 };
 

@@ -169,6 +169,20 @@ std::vector<double> sheet() {
   return values;
 }
 
+/// A tube of one patch around, whose rings are `rings` patches. Few cells of it have to be raised.
+std::vector<double> tube(std::size_t rings) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 16 * rings; ++k) {
+    const double angle = 2 * 3.14159265358979 / 3 * static_cast<double>(k % 4 % 3);
+    const double along = static_cast<double>(k / 16) + static_cast<double>(k / 4 % 4) / 3;
+    const double radius = 1 + 0.3 * along * along;
+    for (const double c : {radius * std::cos(angle), radius * std::sin(angle), 2 * along}) {
+      values.push_back(c);
+    }
+  }
+  return values;
+}
+
 void expect_no_more_cells(const std::vector<double>& values, double tolerance, std::size_t& fewer) {
   const Joined usual(values, within(tolerance, false));
   const Joined thorough(values, within(tolerance));
@@ -189,6 +203,12 @@ TEST(Thorough, never_has_more_cells_where_patches_are_joined) {
     for (unsigned seed = 0; seed < by_form(80U, 2000U); ++seed) {
       SCOPED_TRACE(seed);
       expect_no_more_cells(RandomGluing(seed).values, tolerance, fewer);
+    }
+  }
+  for (const std::size_t rings : {1U, 2U}) {
+    for (double tolerance = 0.01; tolerance < 0.6; tolerance *= 1.15) {
+      SCOPED_TRACE(tolerance);
+      expect_no_more_cells(tube(rings), tolerance, fewer);
     }
   }
   EXPECT_GT(fewer, 10U);

@@ -148,6 +148,30 @@ public:
     });
   }
 
+  /// What has been chosen; bounds include errors.
+  [[nodiscard]] std::vector<CertifiedCells> chosen() const {
+    std::vector<CertifiedCells> all(out_.cells_u.size());
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+      all[patch] = {rates(patch), deviations_[patch], out_.diagonals[patch]};
+    }
+    return all;
+  }
+  /// Patches that have more cells than those `before` take these back, or all patches do. Returns
+  /// whether any had more.
+  bool take_back(const std::vector<CertifiedCells>& before, bool all) {
+    bool any = false;
+    for (std::size_t patch = 0; patch < before.size(); ++patch) {
+      const CertifiedCells& had = before[patch];
+      const bool more = rates(patch).product() > had.cells.product();
+      any = any || more;
+      if (more || all) {
+        put(patch, {had.cells, 0, had.diagonals});
+        deviations_[patch] = had.bound;
+      }
+    }
+    return any;
+  }
+
   /// Certifies rates that have been raised since they were `certified`, and raises them further
   /// where that does not hold, since the bound does not fall with every step. The certificates of
   /// all other patches stay, so that none depends on patches elsewhere.

@@ -119,7 +119,16 @@ Report choose_rates(std::span<const ControlNets<S>> nets, const Topology& topolo
   };
   Report report = separate(call.choose());
   if (report && options.thorough) {
+    // Separating few cells can raise them to more than there were before.
+    const std::vector<detail::CertifiedCells> usual = call.chosen();
     report = separate(call.choose_fewer());
+    if (report && call.take_back(usual, false)) {
+      report = separate(report);
+    }
+    if (!report || call.take_back(usual, false)) {
+      call.take_back(usual, true);
+      report = {};
+    }
   }
   if (report && !before.empty()) {
     report = separate(call.keep(before));
