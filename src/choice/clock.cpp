@@ -1,9 +1,8 @@
 // See src/choice/clock.hpp.
 #include "src/choice/clock.hpp"
 
-#if !defined(__wasm__)
-#include <chrono>
-#endif
+#include "src/runtime/useful_threads.hpp"
+
 #if defined(__linux__)
 #include <sys/resource.h>
 #endif
@@ -14,8 +13,7 @@ std::int64_t clock_now() noexcept {
 #if defined(__wasm__)
   return 0; // browsers' clocks are coarse, or stop: whatever is measured is taken to be equal
 #else
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  return elapsed_time();
 #endif
 }
 
