@@ -90,8 +90,8 @@ typedef struct simdbezier_rate_options {
   uint32_t most_segments; // 0: SIMDBEZIER_MOST_SEGMENTS
   int32_t threads;
   simdbezier_isa isa;
-  double keep; // rates hold those of the frame before; below 1: none is kept
-  int32_t thorough;
+  double keep;      // rates hold those of the frame before; below 1: none is kept
+  int32_t thorough; // not 0: fewer triangles, in more time; see RateOptions (rates.hpp)
 } simdbezier_rate_options;
 
 // Camera. Zeros: its usual values.

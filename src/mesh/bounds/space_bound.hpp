@@ -18,12 +18,12 @@ namespace simdbezier::detail {
 /// The largest weight over the smallest one.
 double weight_spread(const VectorPatch& patch);
 
-/// What is looked for.
+/// What cells are looked for.
 struct SpaceSearch {
-  CellCounts usual;   ///< there have to be fewer of them than these …
-  CellCounts least;   ///< … with at least so many segments in each direction …
-  std::uint32_t most; ///< … and no more than so many
-  double t;           ///< what their bound has to be below
+  CellCounts usual;   ///< there are to be fewer than these
+  CellCounts least;   ///< the fewest segments in each direction
+  std::uint32_t most; ///< the most segments in a direction
+  double t;           ///< the largest bound
   bool thorough;      ///< whether it may take 0.1 s, however few cells there may be
 };
 
