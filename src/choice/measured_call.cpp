@@ -277,7 +277,7 @@ Status run_and_choose(const AnyWork& widest, const AnyWork& narrower, const Call
   const std::size_t block = std::clamp<std::size_t>(kBlock / patch, 1, patches);
   const Width width =
       patch > kLargestPatch ? Width::widest : BothWidths(widest, narrower, scratch).measure(block);
-  width_notes().decide(kind, width);
+  width_notes().add_measurement(kind, width);
   const AnyWork& work = width == Width::narrower ? narrower : widest;
   note_executed(run_units(0, work.units, threads, scratch, work));
   return Status::ok;

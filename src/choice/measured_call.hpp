@@ -17,9 +17,10 @@
 // give the same bits, so that it does not matter who decides what.
 //
 // Nor is the wider of two instruction sets always the faster one: where a processor splits its
-// registers in two, small grids lose by what fills them. The first call of each kind that is large
-// enough and stays in the caches therefore evaluates a few of its patches on both, in some 20
-// microseconds, and the faster one is kept. Calls that may run on either have
+// registers in two, small grids lose by what fills them. The first calls of each kind that are
+// large enough and stay in the caches therefore evaluate a few of their patches on both, in some 20
+// microseconds, and the faster one is kept: again what two calls agree about, or what the third one
+// says. Calls that may run on either have
 //
 //   bool may_narrow()       whether there are two, nobody has named one of them, and the call is
 //                           large enough
