@@ -13,7 +13,7 @@ import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { Worker } from 'node:worker_threads';
 import { brotliCompressSync, constants } from 'node:zlib';
-import { load } from 'simdbezier';
+import { instantiate, load } from 'simdbezier';
 import { load as loadCore } from 'simdbezier/core';
 import { load as loadDoubles } from 'simdbezier/f64';
 
@@ -221,7 +221,7 @@ test('errors are those of the program', () => {
     [() => bezier.patches(flat.map(() => NaN)), /./],
     [() => bezier.patches({ length: 48 * 2 ** 25 }), /not enough memory/],
     [() => bezier.patches(flat, { degreeU: 16 }), /degreeU: expected an integer, 1 or more and at most 15, found 16/],
-    [() => bezier.patches(flat, { degree: 3 }), /found degree/],
+    [() => bezier.patches(flat, { degree: 3 }), /among degreeU, .*found degree/],
     [() => teapot().tessellate({}), /expected either a grid or some of tolerance/],
     [() => teapot().tessellate({ relative: -1 }), /relative: expected a finite number/],
     [() => teapot().tessellate({ tolerance: Infinity }), /tolerance: expected a finite number, .*found Infinity/],
@@ -230,6 +230,22 @@ test('errors are those of the program', () => {
     [() => teapot().tessellate({ relative: 1e-12 }), /--relative: expected /],
     [() => teapot().tessellate({ tolerence: 1 }), /among grid, weld, tolerance, .*found tolerence/],
     [() => teapot().tessellate({ nu: 3, nv: 3 }), /found nu/],
+    [() => teapot().tessellate({ relative: 1e-2, bits: 8 }), /among grid, .*found bits/],
+    [() => teapot().file('ply', { relative: 1e-2, bits: 8 }), /^mesh\.ply: expected floating-point vertices/],
+    [() => teapot().file('glb', { relative: 1e-2, bits: 7 }), /bits: expected one of 8, 16, found 7/],
+    [() => teapot().tessellate({ grid: 4, thorough: true }), /thorough: expected with tolerance or relative, found without/],
+    [() => teapot().tessellate({ angle: 9, thorough: true }), /thorough: expected with tolerance or relative/],
+    [() => teapot().tessellate({ angle: 181 }), /angle: expected a finite number, .*at most 180/],
+    [() => teapot().tessellate({ grid: 4, crease: 181 }), /crease: expected a finite number, .*at most 180/],
+    [() => teapot().tessellate({ grid: 4, crease: 30, weld: false }), /crease: expected without weld: false/],
+    [() => teapot().tessellate({ grid: 4, crease: 30, normals: false }), /crease: expected without .*normals: false/],
+    [() => teapot().tessellate(null), 'simdbezier: expected options in an object, found null'],
+    [() => teapot().grid(3, 3, 'normal'), 'simdbezier: expected options in an object, found normal'],
+    [() => teapot().grid(3, 3, { outputs: 7 }), /outputs: expected one of position, .*found 7/],
+    [() => bezier.read('builtin:teapot', undefined, null), 'simdbezier: expected options in an object, found null'],
+    [() => bezier.patches(flat, 3), 'simdbezier: expected options in an object, found 3'],
+    [() => bezier.patches(undefined), /points: expected a multiple of 48 values, found undefined/],
+    [() => bezier.patches([]), /points: expected a multiple of 48 values, found 0/],
     [() => teapot().grid(1), /nu: expected an integer, 2 or more/],
     [() => teapot().grid(100000, 100000), 'not enough memory'],
     [() => teapot().samples([0], [0.5], []), /1 patches, 1 u and 0 v/],
@@ -237,12 +253,22 @@ test('errors are those of the program', () => {
     ...[0.5, -1, NaN, 2 ** 32, '0', undefined].map((patch) =>
       [() => teapot().samples([0, patch], [0, 0], [0, 0]), `simdbezier: patches: expected numbers of patches, found ${patch}`]),
     [() => teapot().samples({}, {}, {}), /patches.length: expected an integer/],
+    [() => teapot().samples(), /patches.length: expected an integer/],
+    [() => teapot().samples([0]), /1 patches, undefined u and undefined v/],
     [() => teapot().file('stl', { relative: 1e-3 }), /format: expected one of glb, ply, found stl/],
   ]) {
     assert.throws(act, (error) => error instanceof Error
       && (typeof message === 'string' ? error.message === message : message.test(error.message) || assert.fail(error.message)));
   }
   using_(teapot(), (set) => assert.equal(set.size, 32)); // the instance goes on
+});
+
+test('only modules of the package are started', async () => {
+  const foreign = new Uint8Array([0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, 1, 4, 1, 0x60, 0, 0, 3, 2, 1, 0, 7, 15, 1, 11,
+    ...new TextEncoder().encode('_initialize'), 0, 0, 10, 4, 1, 2, 0, 11]); // which has this function and nothing else
+  for (const source of [foreign.subarray(0, 8), foreign, new WebAssembly.Module(foreign), new Response(foreign), new Uint8Array(8), '<html>', undefined]) {
+    await assert.rejects(instantiate(source), /^Error: simdbezier: expected a module of this package that can be started: ./);
+  }
 });
 
 test('views are guarded', async () => {

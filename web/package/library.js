@@ -6,7 +6,9 @@ const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY'
   'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'sampleStep', 'statusData', 'fileData', 'fileBytes'];
 const MESH_VALUES = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
   'flip', 'thorough', 'bits'];
-const MESH_OPTIONS = ['grid', 'weld', ...MESH_VALUES.filter((name) => name !== 'nu' && name !== 'nv')];
+const MESH_OPTIONS = ['grid', 'weld', ...MESH_VALUES.filter((name) => !['nu', 'nv', 'bits'].includes(name))];
+const READ_OPTIONS = ['precision', 'ignoreTrims'];
+const PATCH_OPTIONS = ['degreeU', 'degreeV', 'weights', 'precision'];
 const SAMPLE_OPTIONS = ['outputs', 'layout', 'watertight', 'copy'];
 const LINES = { least: 2, most: 2 ** 20, whole: true }; // of a grid
 const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
@@ -40,6 +42,7 @@ function number(name, value, { least = 0, most = Infinity, whole = false } = {})
 }
 
 function expectKnown(options, known) {
+  if (Object(options) !== options) fail(`expected options in an object, found ${String(options)}`);
   for (const name in options) {
     if (!known.includes(name)) fail(`expected options among ${known.join(', ')}, found ${name}`);
   }
@@ -87,17 +90,22 @@ function wishOf(bits) {
 export async function instantiate(source) {
   source = await source;
   let module = source;
-  if (!(module instanceof WebAssembly.Module)) {
-    const response = typeof Response !== 'undefined' && source instanceof Response;
-    if (response && !source.ok) fail(`${source.url}: expected an answer, found status ${source.status}`);
-    // A server that names another type is refused by compileStreaming().
-    const streams = response && (source.headers.get('content-type') ?? '').startsWith('application/wasm');
-    module = streams ? await WebAssembly.compileStreaming(source)
-      : await WebAssembly.compile(response ? await source.arrayBuffer() : source);
+  const response = typeof Response !== 'undefined' && source instanceof Response;
+  if (response && !source.ok) fail(`${source.url}: expected an answer, found status ${source.status}`);
+  try {
+    if (!(module instanceof WebAssembly.Module)) {
+      // A server that names another type is refused by compileStreaming().
+      const streams = response && (source.headers.get('content-type') ?? '').startsWith('application/wasm');
+      module = streams ? await WebAssembly.compileStreaming(source)
+        : await WebAssembly.compile(response ? await source.arrayBuffer() : source);
+    }
+    const wasm = (await WebAssembly.instantiate(module, imports)).exports;
+    if (!wasm.read_model) throw new Error('found another one');
+    wasm._initialize();
+    return new Simdbezier(wasm, module);
+  } catch (error) {
+    throw new Error(`simdbezier: expected a module of this package that can be started: ${error.message}`, { cause: error });
   }
-  const wasm = (await WebAssembly.instantiate(module, imports)).exports;
-  wasm._initialize();
-  return new Simdbezier(wasm, module);
 }
 
 /** One instance: its memory, and what is made in it. */
@@ -110,8 +118,9 @@ class Simdbezier {
 
   get memoryBytes() { return this.#wasm.memory.buffer.byteLength; }
 
-  read(name, bytes = new Uint8Array(), { precision = 'f32', ignoreTrims = false, ...rest } = {}) {
-    expectKnown(rest, []);
+  read(name, bytes = new Uint8Array(), options = {}) {
+    expectKnown(options, READ_OPTIONS);
+    const { precision = 'f32', ignoreTrims = false } = options;
     const flags = choice('precision', precision, PRECISIONS) + (ignoreTrims ? 2 : 0);
     const text = new TextEncoder().encode(name);
     const data = lasting(this.#wasm, bytesOf(name, bytes));
@@ -139,15 +148,16 @@ class Simdbezier {
     return this.read(name, bytes, options);
   }
 
-  patches(points, { degreeU = 3, degreeV = 3, weights = 'none', precision = 'f32', ...rest } = {}) {
-    expectKnown(rest, []);
+  patches(points, options = {}) {
+    expectKnown(options, PATCH_OPTIONS);
+    const { degreeU = 3, degreeV = 3, weights = 'none', precision = 'f32' } = options;
     number('degreeU', degreeU, { least: 1, most: 15, whole: true });
     number('degreeV', degreeV, { least: 1, most: 15, whole: true });
     const form = choice('weights', weights, WEIGHTS);
     const flags = choice('precision', precision, PRECISIONS);
     const each = (degreeU + 1) * (degreeV + 1) * (form === 0 ? 3 : 4);
-    if (points.length === 0 || points.length % each !== 0) {
-      fail(`points: expected a multiple of ${each} values, found ${points.length}`);
+    if (!points?.length || points.length % each !== 0) {
+      fail(`points: expected a multiple of ${each} values, found ${points?.length}`);
     }
     points = lasting(this.#wasm, points);
     return this.#made(8 * points.length, flags, (at) => {
@@ -210,17 +220,17 @@ class PatchSet {
   get ignoredTrims() { return this.#about.ignoredTrims; }
   get precision() { return PRECISIONS[this.#doubles ? 1 : 0]; }
 
-  tessellate({ copy = false, ...options } = {}) {
+  tessellate(options = {}) {
     this.#call.mesh++;
-    this.#wish(options, (at) => this.#wasm.tessellate(this.#use(), at));
+    this.#wish(options, [...MESH_OPTIONS, 'copy'], (at) => this.#wasm.tessellate(this.#use(), at));
     this.#about = new Results(this.#results());
     const mesh = new Mesh(this.#views('mesh'), this.#about);
-    return copy ? mesh.copy() : mesh;
+    return options.copy ? mesh.copy() : mesh;
   }
 
   file(format, options = {}) {
     const number = choice('format', format, FORMATS);
-    this.#wish(options, (at) => this.#wasm.write_file(this.#use(), number, at));
+    this.#wish(options, [...MESH_OPTIONS, 'bits'], (at) => this.#wasm.write_file(this.#use(), number, at));
     const { fileData, fileBytes } = new Results(this.#results());
     return new Uint8Array(this.#wasm.memory.buffer, fileData, fileBytes).slice();
   }
@@ -233,9 +243,9 @@ class PatchSet {
   }
 
   samples(patches, u, v, options = {}) {
-    const count = number('patches.length', patches.length, { whole: true });
-    if (u.length !== count || v.length !== count) {
-      fail(`expected as many u and v as patches, found ${count} patches, ${u.length} u and ${v.length} v`);
+    const count = number('patches.length', patches?.length, { whole: true });
+    if (u?.length !== count || v?.length !== count) {
+      fail(`expected as many u and v as patches, found ${count} patches, ${u?.length} u and ${v?.length} v`);
     }
     [patches, u, v] = [patches, u, v].map((values) => lasting(this.#wasm, values));
     const Values = this.#doubles ? Float64Array : Float32Array;
@@ -273,22 +283,26 @@ class PatchSet {
     if (!done) throw new Error(message(this.#wasm));
   }
 
-  #wish(wanted, call) {
-    expectKnown(wanted, MESH_OPTIONS);
+  #wish(wanted, known, call) {
+    expectKnown(wanted, known);
     const { grid, weld = true, crease, normals = true, ...options } = wanted;
+    if (crease !== undefined && !(weld && normals)) fail('crease: expected without weld: false and normals: false, found both');
     const wish = { ...options, normals, crease: weld ? crease : 0 };
     if (grid !== undefined) {
       [wish.nu, wish.nv] = grid?.[Symbol.iterator] ? grid : [grid, grid];
       for (const name of ['nu', 'nv']) number('grid', wish[name], { least: 2, most: 2 ** 16 + 1, whole: true });
     }
-    for (const name of ['tolerance', 'relative', 'angle']) {
-      if (wish[name] !== undefined) number(name, wish[name], { least: Number.MIN_VALUE });
+    for (const [name, least, most] of [['tolerance', Number.MIN_VALUE], ['relative', Number.MIN_VALUE],
+      ['angle', Number.MIN_VALUE, 180], ['crease', 0, 180], ['snap', 0]]) {
+      if (wish[name] !== undefined) number(name, wish[name], { least, most });
     }
-    for (const name of ['crease', 'snap']) if (wish[name] !== undefined) number(name, wish[name]);
     if (wish.bits !== undefined) choice('bits', wish.bits, [8, 16]);
     const adaptive = wish.tolerance ?? wish.relative ?? wish.angle;
     if ((adaptive === undefined) === (wish.nu === undefined)) {
       fail('expected either a grid or some of tolerance, relative and angle');
+    }
+    if (wish.thorough && (wish.tolerance ?? wish.relative) === undefined) {
+      fail('thorough: expected with tolerance or relative, found without');
     }
     const flags = ['parameters', 'orient', 'flip', 'thorough', 'normals'];
     this.#expect(withMemory(this.#wasm, 8 * MESH_VALUES.length, (at) => {
@@ -302,7 +316,7 @@ class PatchSet {
     expectKnown(options, SAMPLE_OPTIONS);
     const { outputs = ['position'], layout = 'triples', watertight = true, copy = false } = options;
     let bits = 0;
-    for (const name of outputs) bits |= 1 << choice('outputs', name, OUTPUTS);
+    for (const name of outputs?.[Symbol.iterator] ? outputs : [outputs]) bits |= 1 << choice('outputs', name, OUTPUTS);
     this.#call.samples++;
     this.#expect(call(bits, choice('layout', layout, LAYOUTS), watertight ? 1 : 0));
     const samples = new SampleArrays(this.#views('samples'), new SampleResults(this.#results()), wishOf(bits), layout);
