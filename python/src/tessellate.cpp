@@ -213,6 +213,9 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
   if (!grid.is_none() && measured) {
     throw_value_error("grid", "expected without tolerance, relative and longest_edge");
   }
+  if (options.rates.thorough && tolerance.is_none() && relative.is_none()) {
+    throw_value_error("thorough", "expected with tolerance or relative, found without");
+  }
   if (!splines.empty()) {
     const auto all = [&](const auto& is) { return std::ranges::all_of(splines, is); };
     const bool points_are_float = all([](auto* one) { return one->points_are_float(); });
