@@ -178,22 +178,20 @@ public:
       : boundary_(boundary), nu_(mesh.nu[patch]), nv_(mesh.nv[patch]), inner_(mesh.inner[patch]),
         zones_(mesh, patch) {}
 
-  /// Row by row.
+  /// Row by row: columns [0, width) of all rows, then the next ones, so that neighbours are soon
+  /// written.
   template <typename Sink>
-  void cut(Sink& sink) const {
-    for (std::uint32_t j = 0; j < nv_; ++j) {
-      cut_row(j, 0, nu_, sink);
-    }
-  }
-
-  /// Columns [0, width) of all rows, then the next ones, so that neighbours are written soon.
-  template <typename Sink>
-  void cut_in_bands(std::uint32_t width, Sink& sink) const {
+  void cut(std::uint32_t width, Sink& sink) const {
     for (std::uint32_t begin = 0; begin < nu_; begin += width) {
       for (std::uint32_t j = 0; j < nv_; ++j) {
         cut_row(j, begin, std::min(nu_, begin + width), sink);
       }
     }
+  }
+  /// Whole rows.
+  template <typename Sink>
+  void cut(Sink& sink) const {
+    cut(nu_, sink);
   }
 
 private:

@@ -25,6 +25,12 @@ public:
     make_room(2, 4);
     put_halves(c, falling, [this](auto... vertices) { put(vertices...); });
   }
+  const ClusterSize& finish() {
+    end_cluster();
+    return size_;
+  }
+
+private:
   void end_cluster() {
     if (cluster_.triangles == 0) {
       return;
@@ -36,9 +42,6 @@ public:
     ++size_.clusters;
     cluster_ = {};
   }
-  [[nodiscard]] const ClusterSize& size() const { return size_; }
-
-private:
   void make_room(std::uint32_t triangles, std::uint32_t vertices) {
     if (cluster_.triangles + triangles > kMostClusterTriangles ||
         cluster_.vertices + vertices > kMostClusterVertices) {

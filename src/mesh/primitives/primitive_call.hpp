@@ -30,9 +30,6 @@ struct PatchRange {
   std::size_t first = 0;
   std::size_t count = 0;
 
-  PatchRange() = default;
-  /// All of them.
-  explicit PatchRange(const MeshLayout& layout) noexcept { static_cast<void>(resolve(layout, {})); }
   /// Returns false where the layout has no such patches.
   [[nodiscard]] bool resolve(const MeshLayout& layout, SetRange patches) noexcept {
     const std::size_t all = layout.data() == nullptr ? 0 : layout.data()->patches();

@@ -90,8 +90,7 @@ public:
     indices_.put(first, turned_ ? fourth : second, third, turned_ ? second : fourth);
     sizes_.put(4);
   }
-  [[nodiscard]] std::size_t indices() const { return indices_.count(); }
-  [[nodiscard]] std::size_t polygons() const { return sizes_.count(); }
+  PolygonSize finish() const { return {sizes_.count(), indices_.count()}; }
 
 private:
   IndexWriter<Index> indices_;
@@ -131,17 +130,20 @@ public:
     last_[0] = c.at[1];
     last_[1] = c.at[3];
   }
+  std::size_t finish() {
+    end_strip();
+    return indices_.count();
+  }
+
+private:
+  static constexpr Index kRestart = static_cast<Index>(-1);
+
   void end_strip() {
     if (open_) {
       indices_.put(kRestart);
       open_ = false;
     }
   }
-  [[nodiscard]] std::size_t indices() const { return indices_.count(); }
-
-private:
-  static constexpr Index kRestart = static_cast<Index>(-1);
-
   void put_column(std::uint32_t below, std::uint32_t above, bool falling) {
     indices_.put(falling ? below : above, falling ? above : below);
   }

@@ -1,6 +1,7 @@
 // See mesh_layout.hpp.
 #include <simdbezier/mesh_layout.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <new>
@@ -51,79 +52,97 @@ void add(const ClusterSize& before, ClusterSize& sum) {
   sum.triangles += before.triangles;
 }
 
-/// The running sums of patches' sizes, count(patch, cutter, turned): sizes[k] is what stands before
-/// the k-th, the last one all.
-template <typename Size, typename Count>
-Status sum_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
-                 std::vector<Size>& sizes, const Count& count) {
-  sizes.assign(patches.count + 1, Size{});
-  const Status status = for_cells(layout, patches, threads,
-                                  [&](std::size_t patch, const CellCutter& cells, bool turned) {
-                                    sizes[patch - patches.first + 1] = count(patch, cells, turned);
-                                  });
+// What cells can become. sink() begins behind what the patches before have filled, and counts where
+// there is no memory; kBand is the number of columns that are cut one below the other.
+template <typename Index>
+struct Polygons {
+  using Size = PolygonSize;
+  static constexpr std::uint32_t kBand = kMostSegments;
+  Index* indices = nullptr;
+  std::uint8_t* sizes = nullptr;
+
+  [[nodiscard]] PolygonSink<Index> sink(const Size& before, std::size_t, bool turned) const {
+    return {indices + before.indices, sizes + before.polygons, turned};
+  }
+};
+template <typename Index>
+struct Strips {
+  using Size = std::size_t;
+  static constexpr std::uint32_t kBand = kMostSegments;
+  Index* indices = nullptr;
+
+  [[nodiscard]] StripSink<Index> sink(Size before, std::size_t, bool turned) const {
+    return {indices + before, turned};
+  }
+};
+struct Clusters {
+  using Size = ClusterSize;
+  static constexpr std::uint32_t kBand = 8;
+  const ClusterOutputs* out = nullptr;
+
+  [[nodiscard]] ClusterSink sink(const Size& before, std::size_t patch, bool turned) const {
+    return {out, before, static_cast<std::uint32_t>(patch), turned};
+  }
+};
+
+/// Puts the cells of a patch behind those before; returns the size of all.
+template <typename Kind>
+typename Kind::Size put(const Kind& kind, const typename Kind::Size& before, std::size_t patch,
+                        const CellCutter& cells, bool turned) {
+  auto sink = kind.sink(before, patch, turned);
+  cells.cut(Kind::kBand, sink);
+  return sink.finish();
+}
+
+/// Counts what some patches become: sizes[k] is what stands before the k-th, the last one all.
+template <typename Kind>
+Status count(const MeshLayout& layout, SetRange patches, int threads, PatchRange& range,
+             std::vector<typename Kind::Size>& sizes) {
+  if (!range.resolve(layout, patches)) {
+    return Status::bad_patch_range;
+  }
+  sizes.assign(range.count + 1, {});
+  const Status status = for_cells(
+      layout, range, threads, [&](std::size_t patch, const CellCutter& cells, bool turned) {
+        sizes[patch - range.first + 1] = put(Kind(), {}, patch, cells, turned);
+      });
   for (std::size_t k = 1; k < sizes.size(); ++k) {
     add(sizes[k - 1], sizes[k]);
   }
   return status;
 }
 
-Status polygon_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
-                     std::vector<PolygonSize>& sizes) {
-  return sum_sizes(layout, patches, threads, sizes, [](auto, const CellCutter& cells, bool turned) {
-    PolygonSink<std::uint32_t> sink(nullptr, nullptr, turned);
-    cells.cut(sink);
-    return PolygonSize{sink.polygons(), sink.indices()};
-  });
+/// Hands the size of all to the caller.
+template <typename Kind>
+Status find_size(const MeshLayout& layout, SetRange patches, int threads,
+                 typename Kind::Size& size) noexcept try {
+  PatchRange range;
+  std::vector<typename Kind::Size> sizes;
+  const Status status = count<Kind>(layout, patches, threads, range, sizes);
+  size = status ? sizes.back() : size;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
 }
 
-Status strip_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
-                   std::vector<std::size_t>& sizes) {
-  return sum_sizes(layout, patches, threads, sizes, [](auto, const CellCutter& cells, bool turned) {
-    StripSink<std::uint32_t> sink(nullptr, turned);
-    cells.cut(sink);
-    sink.end_strip();
-    return sink.indices();
-  });
-}
-
-constexpr std::uint32_t kClusterWidth = 8;
-
-Status cluster_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
-                     std::vector<ClusterSize>& sizes) {
-  return sum_sizes(layout, patches, threads, sizes,
-                   [](std::size_t patch, const CellCutter& cells, bool turned) {
-                     ClusterSink sink(nullptr, {}, static_cast<std::uint32_t>(patch), turned);
-                     cells.cut_in_bands(kClusterWidth, sink);
-                     sink.end_cluster();
-                     return sink.size();
-                   });
-}
-
-/// use(range, sizes) with what sizes_of() counts in some patches, unless these are refused.
-template <typename Size, typename Use>
-Status with_sizes(const MeshLayout& layout, SetRange patches, int threads,
-                  Status (*sizes_of)(const MeshLayout&, const PatchRange&, int, std::vector<Size>&),
-                  const Use& use) noexcept {
-  try {
-    PatchRange range;
-    if (!range.resolve(layout, patches)) {
-      return Status::bad_patch_range;
-    }
-    std::vector<Size> sizes;
-    const Status status = sizes_of(layout, range, threads, sizes);
-    return status ? use(range, sizes) : status;
-  } catch (const std::bad_alloc&) {
-    return Status::out_of_memory;
+/// Writes them if check(size of all) says that there is room.
+template <typename Kind, typename Check>
+Status write(const MeshLayout& layout, SetRange patches, int threads, const Kind& kind,
+             const Check& check) noexcept try {
+  PatchRange range;
+  std::vector<typename Kind::Size> before;
+  if (const Status status = count<Kind>(layout, patches, threads, range, before); !status) {
+    return status;
   }
-}
-
-/// Hands the size of all of them to the caller.
-template <typename Size>
-auto total_to(Size& size) {
-  return [&size](const PatchRange&, const std::vector<Size>& sizes) {
-    size = sizes.back();
-    return Status(Status::ok);
-  };
+  if (const Status status = check(before.back()); !status) {
+    return status;
+  }
+  return for_cells(layout, range, threads,
+                   [&](std::size_t patch, const CellCutter& cells, bool turned) {
+                     put(kind, before[patch - range.first], patch, cells, turned);
+                   });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
 }
 
 } // namespace
@@ -131,70 +150,45 @@ auto total_to(Size& size) {
 
 Status polygon_size(const MeshLayout& layout, PolygonSize& size, const RunOptions& options,
                     SetRange patches) noexcept {
-  return detail::with_sizes(layout, patches, options.threads, detail::polygon_sizes,
-                            detail::total_to(size));
+  return detail::find_size<detail::Polygons<std::uint32_t>>(layout, patches, options.threads, size);
 }
 
 template <typename Index>
 Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
                       std::span<std::uint8_t> sizes, const RunOptions& options,
                       SetRange patches) noexcept {
-  const auto write = [&](const detail::PatchRange& range, const std::vector<PolygonSize>& before) {
-    Status status = detail::check_indices<Index>(layout, indices, before.back().indices);
-    if (status && sizes.size() < before.back().polygons) {
-      status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
+  const detail::Polygons<Index> polygons{indices.data(), sizes.data()};
+  return detail::write(layout, patches, options.threads, polygons, [&](const PolygonSize& all) {
+    const Status status = detail::check_indices<Index>(layout, indices, all.indices);
+    if (status && sizes.size() < all.polygons) {
+      return Status(sizes.data() == nullptr ? Status::null_output : Status::output_too_small);
     }
-    if (!status || before.back().polygons == 0) {
-      return status;
-    }
-    return detail::for_cells(layout, range, options.threads,
-                             [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-                               const PolygonSize& place = before[patch - range.first];
-                               detail::PolygonSink<Index> sink(indices.data() + place.indices,
-                                                               sizes.data() + place.polygons,
-                                                               turned);
-                               cells.cut(sink);
-                             });
-  };
-  return detail::with_sizes(layout, patches, options.threads, detail::polygon_sizes, write);
+    return status;
+  });
 }
 
 Status strip_size(const MeshLayout& layout, std::size_t& indices, const RunOptions& options,
                   SetRange patches) noexcept {
-  return detail::with_sizes(layout, patches, options.threads, detail::strip_sizes,
-                            detail::total_to(indices));
+  return detail::find_size<detail::Strips<std::uint32_t>>(layout, patches, options.threads,
+                                                          indices);
 }
 
 template <typename Index>
 Status write_strips(const MeshLayout& layout, std::span<Index> indices, const RunOptions& options,
                     SetRange patches) noexcept {
-  const auto write = [&](const detail::PatchRange& range, const std::vector<std::size_t>& before) {
-    const Status status = detail::check_indices<Index>(layout, indices, before.back());
-    if (!status || before.back() == 0) {
-      return status;
-    }
-    return detail::for_cells(layout, range, options.threads,
-                             [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-                               detail::StripSink<Index> sink(
-                                   indices.data() + before[patch - range.first], turned);
-                               cells.cut(sink);
-                               sink.end_strip();
-                             });
-  };
-  return detail::with_sizes(layout, patches, options.threads, detail::strip_sizes, write);
+  return detail::write(
+      layout, patches, options.threads, detail::Strips<Index>{indices.data()},
+      [&](std::size_t all) { return detail::check_indices<Index>(layout, indices, all); });
 }
 
 Status cluster_size(const MeshLayout& layout, ClusterSize& size, const RunOptions& options,
                     SetRange patches) noexcept {
-  return detail::with_sizes(layout, patches, options.threads, detail::cluster_sizes,
-                            detail::total_to(size));
+  return detail::find_size<detail::Clusters>(layout, patches, options.threads, size);
 }
 
 Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
                       const RunOptions& options, SetRange patches) noexcept {
-  const auto write = [&](const detail::PatchRange& range,
-                         const std::vector<ClusterSize>& before) -> Status {
-    const ClusterSize& all = before.back();
+  const auto check = [&](const ClusterSize& all) {
     if (all.clusters == 0) {
       return Status::ok;
     }
@@ -206,19 +200,10 @@ Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
         out.corners.size() / 3 < all.triangles) {
       return Status::output_too_small;
     }
-    if (all.vertices > std::numeric_limits<std::uint32_t>::max() ||
-        all.triangles > std::numeric_limits<std::uint32_t>::max()) {
-      return Status::size_overflow;
-    }
-    return detail::for_cells(layout, range, options.threads,
-                             [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-                               detail::ClusterSink sink(&out, before[patch - range.first],
-                                                        static_cast<std::uint32_t>(patch), turned);
-                               cells.cut_in_bands(detail::kClusterWidth, sink);
-                               sink.end_cluster();
-                             });
+    constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+    return std::max(all.vertices, all.triangles) > kMost ? Status::size_overflow : Status::ok;
   };
-  return detail::with_sizes(layout, patches, options.threads, detail::cluster_sizes, write);
+  return detail::write(layout, patches, options.threads, detail::Clusters{&out}, check);
 }
 
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
