@@ -113,6 +113,17 @@ struct Request {
   }
 };
 
+/// Checks the outputs of patches: as check_outputs(), and bad_components.
+template <typename T>
+[[nodiscard]] Status check_patch_outputs(const OutputList<T>& out, std::size_t samples,
+                                         const Components& components,
+                                         std::span<const MemoryRange> inputs) noexcept {
+  if (!components.space() && out.holds_any(kSpaceOutputs)) {
+    return Status::bad_components;
+  }
+  return check_outputs(out, samples, components.dimension, inputs);
+}
+
 /// The arguments of a call with Outputs or CurveOutputs; references to them.
 template <typename T, typename Set, typename Where>
 struct Given {
@@ -126,6 +137,19 @@ struct Given {
   Given(const Set& patches, const Where& samples, const Out& outputs, const Options& how) noexcept
       : set(patches), where(samples), out(outputs), first_component(outputs.first_component),
         options(how) {}
+
+  /// Checks the outputs: as check_outputs(), and bad_components.
+  [[nodiscard]] Status check(std::size_t samples, const Components& components,
+                             std::span<const MemoryRange> inputs) const noexcept {
+    if constexpr (std::is_same_v<Set, PatchSet<T>>) {
+      return check_patch_outputs(out, samples, components, inputs);
+    } else {
+      const bool bends = out.holds(CurveOutput::tangent) || out.wants_curvature();
+      return bends && !components.all_of_few()
+                 ? Status::bad_components
+                 : check_outputs(out, samples, components.dimension, inputs);
+    }
+  }
 };
 
 /// What a call on patches needs to know to choose a destination or, by `lines` only, a width.
@@ -160,28 +184,6 @@ template <typename T, typename Where>
          !__builtin_mul_overflow(samples, count, &samples);
 }
 
-/// Checks the outputs of patches: as check_outputs(), and bad_components.
-template <typename T>
-[[nodiscard]] Status check_patch_outputs(const OutputList<T>& out, std::size_t samples,
-                                         const Components& components,
-                                         std::span<const MemoryRange> inputs) noexcept {
-  if (!components.space() && out.holds_any(kSpaceOutputs)) {
-    return Status::bad_components;
-  }
-  return check_outputs(out, samples, components.dimension, inputs);
-}
-
-/// Checks the outputs of curves: as check_outputs(), and bad_components.
-template <typename T>
-[[nodiscard]] Status check_curve_outputs(const OutputList<T>& out, std::size_t samples,
-                                         const Components& components,
-                                         std::span<const MemoryRange> inputs) noexcept {
-  if (!components.all_of_few() && (out.holds(CurveOutput::tangent) || out.wants_curvature())) {
-    return Status::bad_components;
-  }
-  return check_outputs(out, samples, components.dimension, inputs);
-}
-
 /// The patches or curves that a call's grids are for; samples of both name their own.
 template <typename Where>
 [[nodiscard]] SetRange range_of(const Where& where) noexcept {
@@ -198,13 +200,13 @@ template <typename Where>
   }
 }
 
-/// What the calls with Outputs or CurveOutputs share: the first step and what it resolves. Set:
-/// PatchSet or CurveSet.
-template <typename T, template <typename> typename Set, typename Where>
-class OutputCall {
+/// What calls share: the first step, and what it resolves. Arguments: Given, or what has the same
+/// members but for `out`.
+template <typename T, typename Arguments>
+class ArgumentsCall {
 public:
-  template <typename Out>
-  OutputCall(const Set<T>& set, const Where& where, const Out& out, const Options& options) noexcept
+  template <typename Set, typename Where, typename Out>
+  ArgumentsCall(const Set& set, const Where& where, const Out& out, const Options& options) noexcept
       : in_(set, where, out, options) {}
 
   Status resolve() noexcept {
@@ -213,28 +215,24 @@ public:
   [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
 
 protected:
-  using GivenCall = Given<T, Set<T>, Where>;
-
   [[nodiscard]] Status check_given(std::size_t samples,
                                    std::span<const MemoryRange> inputs) const noexcept {
-    if constexpr (std::is_same_v<Set<T>, PatchSet<T>>) {
-      return check_patch_outputs(in_.out, samples, request_.components, inputs);
-    } else {
-      return check_curve_outputs(in_.out, samples, request_.components, inputs);
-    }
+    return in_.check(samples, request_.components, inputs);
   }
 
-  GivenCall in_;
+  Arguments in_;
   Request<T> request_;
 };
 
-/// The call on one grid for all patches or curves. Work: made of what is given, what is resolved,
-/// the plan of the grid and a way to write.
-template <CallName kName, typename T, template <typename> typename Set, typename Where,
-          typename Work>
-class CommonGridCall : public OutputCall<T, Set, Where> {
+/// A call with Outputs or CurveOutputs. Set: PatchSet or CurveSet.
+template <typename T, template <typename> typename Set, typename Where>
+using OutputCall = ArgumentsCall<T, Given<T, Set<T>, Where>>;
+
+/// A call on one grid for all patches or curves, as far as the grid is concerned.
+template <typename T, typename Arguments>
+class OneGridCall : public ArgumentsCall<T, Arguments> {
 public:
-  using OutputCall<T, Set, Where>::OutputCall;
+  using ArgumentsCall<T, Arguments>::ArgumentsCall;
 
   Status check() noexcept {
     const Grid<T>& grid = as_grid(this->in_.where);
@@ -243,19 +241,11 @@ public:
       return Status::size_overflow;
     }
     const MemoryRange inputs[] = {{grid.u, grid.nu * sizeof(T)}, {grid.v, grid.nv * sizeof(T)}};
-    constexpr bool kRow = std::is_same_v<Set<T>, CurveSet<T>>; // whose v is not the caller's
+    constexpr bool kRow = // whose v is not the caller's
+        std::is_same_v<decltype(this->in_.set), const CurveSet<T>&>;
     const bool uniform = grid.u == nullptr && (kRow || grid.v == nullptr);
     const Status usable = this->check_given(samples, std::span(inputs, uniform ? 0 : kRow ? 1 : 2));
     return usable ? plan_.build(grid) : usable;
-  }
-  [[nodiscard]] Work plan(Way way) const noexcept {
-    return {this->in_, this->request_, plan_, way};
-  }
-  [[nodiscard]] std::size_t written() const noexcept {
-    return written_bytes(this->in_.out, samples());
-  }
-  [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_call(kName, this->in_, this->request_).add(plan_.nu()).add(plan_.nv());
   }
 
 protected:
@@ -264,6 +254,29 @@ protected:
   }
 
   GridPlan<T> plan_;
+};
+
+/// The call on it with Outputs or CurveOutputs. Work: made of what is given, what is resolved, the
+/// plan of the grid and a way to write.
+template <CallName kName, typename T, template <typename> typename Set, typename Where,
+          typename Work>
+class CommonGridCall : public OneGridCall<T, Given<T, Set<T>, Where>> {
+  using Base = OneGridCall<T, Given<T, Set<T>, Where>>;
+
+public:
+  using Base::Base;
+
+  [[nodiscard]] Work plan(Way way) const noexcept {
+    return {this->in_, this->request_, this->plan_, way};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(this->in_.out, this->samples());
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_call(kName, this->in_, this->request_)
+        .add(this->plan_.nu())
+        .add(this->plan_.nv());
+  }
 };
 
 } // namespace simdbezier::detail

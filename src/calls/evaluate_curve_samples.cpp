@@ -69,7 +69,8 @@ private:
 };
 
 template <typename T>
-using CurveSamplesCall = SamplesCall<T, CurveSet, CurveSamples<T>, CurveSamplesWork<T>>;
+using CurveSamplesCall =
+    SamplesCall<T, Given<T, CurveSet<T>, CurveSamples<T>>, CurveSamplesWork<T>>;
 
 } // namespace
 } // namespace detail

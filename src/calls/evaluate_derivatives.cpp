@@ -21,34 +21,51 @@ constexpr std::size_t kDerivativePiece = 512;
 template <typename T>
 using Derivatives = std::span<const PartialDerivative<T>>;
 
-/// Every output by itself, then every pair of them: ok | bad_degree | null_output | bad_stride |
-/// output_too_small | overlapping_outputs | size_overflow. inputs[0] is room for the list of
-/// derivatives.
-template <typename T, std::size_t kInputs>
-Status check_derivatives(Derivatives<T> wanted, std::size_t samples, std::size_t dimension,
-                         MemoryRange (&inputs)[kInputs]) noexcept {
-  inputs[0] = wanted;
-  if (wanted.empty() || wanted.data() == nullptr) {
-    return Status::null_output;
-  }
-  for (const PartialDerivative<T>& d : wanted) {
-    if (std::min(d.order_u, d.order_v) < 0 ||
-        std::max(d.order_u, d.order_v) > kMostDerivativeOrder) {
-      return Status::bad_degree;
+/// The arguments of a call; references to them.
+template <typename T, typename Where>
+struct DerivativesGiven {
+  const PatchSet<T>& set;
+  const Where& where;
+  Derivatives<T> wanted;
+  int first_component;
+  const Options& options;
+
+  DerivativesGiven(const PatchSet<T>& patches, const Where& samples,
+                   const DerivativeOutputs<T>& out, const Options& how) noexcept
+      : set(patches), where(samples), wanted(out.derivatives), first_component(out.first_component),
+        options(how) {}
+
+  /// Every output by itself, then every pair of them: ok | bad_degree | null_output | bad_stride |
+  /// output_too_small | overlapping_outputs | size_overflow.
+  [[nodiscard]] Status check(std::size_t samples, const Components& components,
+                             std::span<const MemoryRange> inputs) const noexcept {
+    if (wanted.empty() || wanted.data() == nullptr) {
+      return Status::null_output;
     }
-  }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const Vectors<T>* const out = &wanted[i].out;
-    Status status = check_outputs(OutputList<T>(out, nullptr), samples, dimension, inputs);
-    for (std::size_t k = 0; k < i && status; ++k) {
-      status = check_outputs(OutputList<T>(out, &wanted[k].out), samples, dimension, {});
+    for (const PartialDerivative<T>& d : wanted) {
+      if (std::min(d.order_u, d.order_v) < 0 ||
+          std::max(d.order_u, d.order_v) > kMostDerivativeOrder) {
+        return Status::bad_degree;
+      }
     }
-    if (!status) {
-      return status;
+    const MemoryRange list[] = {wanted};
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto check_beside = [&](const Vectors<T>* other, std::span<const MemoryRange> ranges) {
+        const OutputList<T> out(&wanted[i].out, other);
+        return check_outputs(out, samples, components.dimension, ranges);
+      };
+      Status status = check_beside(nullptr, list);
+      status = status ? check_beside(nullptr, inputs) : status;
+      for (std::size_t k = 0; k < i && status; ++k) {
+        status = check_beside(&wanted[k].out, {});
+      }
+      if (!status) {
+        return status;
+      }
     }
+    return Status::ok;
   }
-  return Status::ok;
-}
+};
 
 /// Polynomials need the orders asked for; quotients need all lower ones as well.
 template <typename T>
@@ -110,12 +127,15 @@ struct GridSource {
 template <typename T, typename Source>
 class DerivativeWork {
 public:
-  DerivativeWork(const SetStorage<T>& set, const Source& source, std::size_t samples,
-                 Derivatives<T> wanted, const Request<T>& request, const Options& options) noexcept
-      : set_(set), source_(source), samples_(samples), wanted_(wanted), table_(*request.table),
-        first_component_(request.components.first),
-        watertight_(options.watertight), orders_{orders_of(wanted, false),
-                                                 orders_of(wanted, true)} {}
+  template <typename Where>
+  DerivativeWork(const DerivativesGiven<T, Where>& in, const Request<T>& request,
+                 const Source& source, std::size_t samples) noexcept
+      : set_(*in.set.storage()), source_(source), samples_(samples), wanted_(in.wanted),
+        table_(*request.table), first_component_(request.components.first),
+        watertight_(in.options.watertight), orders_{orders_of(wanted_, false),
+                                                    orders_of(wanted_, true)} {}
+  DerivativeWork(const DerivativesGiven<T, Samples<T>>& in, const Request<T>& request) noexcept
+      : DerivativeWork(in, request, {in.where}, in.where.patch.size()) {}
 
   [[nodiscard]] std::size_t units() const noexcept {
     return samples_ / kDerivativePiece + (samples_ % kDerivativePiece != 0 ? 1 : 0);
@@ -175,71 +195,19 @@ private:
 };
 
 template <typename T>
-class SampleDerivativesCall {
-public:
-  SampleDerivativesCall(const PatchSet<T>& set, const Samples<T>& samples,
-                        const DerivativeOutputs<T>& out, const Options& options) noexcept
-      : set_(set), samples_(samples), out_(out), options_(options) {}
-
-  Status resolve() noexcept { return request_.resolve(set_, {}, out_.first_component, options_); }
-  Status check() noexcept {
-    const SampleArrays<T> arrays(samples_);
-    if (arrays.lengths_differ()) {
-      return Status::unequal_lengths;
-    }
-    MemoryRange inputs[] = {{}, samples_.patch, samples_.u, samples_.v};
-    const Status usable = check_derivatives(out_.derivatives, samples_.patch.size(),
-                                            request_.components.dimension, inputs);
-    return usable ? arrays.check(set_.size(), *request_.table) : usable;
-  }
-  [[nodiscard]] bool empty() const noexcept { return samples_.patch.empty(); }
-  [[nodiscard]] DerivativeWork<T, SampleSource<T>> plan() const noexcept {
-    return {*set_.storage(),  {samples_}, samples_.patch.size(),
-            out_.derivatives, request_,   options_};
-  }
-
-private:
-  const PatchSet<T>& set_;
-  const Samples<T>& samples_;
-  const DerivativeOutputs<T>& out_;
-  const Options& options_;
-  Request<T> request_;
-};
+using SampleDerivativesCall =
+    SamplesCall<T, DerivativesGiven<T, Samples<T>>, DerivativeWork<T, SampleSource<T>>>;
 
 template <typename T>
-class GridDerivativesCall {
+class GridDerivativesCall : public OneGridCall<T, DerivativesGiven<T, Grid<T>>> {
 public:
-  GridDerivativesCall(const PatchSet<T>& set, const Grid<T>& grid, const DerivativeOutputs<T>& out,
-                      const Options& options) noexcept
-      : set_(set), grid_(grid), out_(out), options_(options) {}
+  using OneGridCall<T, DerivativesGiven<T, Grid<T>>>::OneGridCall;
 
-  Status resolve() noexcept {
-    return request_.resolve(set_, grid_.patches, out_.first_component, options_);
-  }
-  Status check() noexcept {
-    if (!multiply_samples(grid_.nu, grid_.nv, request_.count, samples_)) {
-      return Status::size_overflow;
-    }
-    MemoryRange inputs[] = {{}, {grid_.u, grid_.nu * sizeof(T)}, {grid_.v, grid_.nv * sizeof(T)}};
-    const Status usable =
-        check_derivatives(out_.derivatives, samples_, request_.components.dimension, inputs);
-    return usable ? plan_.build(grid_) : usable;
-  }
-  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
   [[nodiscard]] DerivativeWork<T, GridSource<T>> plan() const noexcept {
-    return {*set_.storage(), {plan_.x(), plan_.y(), grid_.nu, grid_.nv, request_.first},
-            samples_,        out_.derivatives,
-            request_,        options_};
+    const GridPlan<T>& grid = this->plan_;
+    const GridSource<T> source{grid.x(), grid.y(), grid.nu(), grid.nv(), this->request_.first};
+    return {this->in_, this->request_, source, this->samples()};
   }
-
-private:
-  const PatchSet<T>& set_;
-  const Grid<T>& grid_;
-  const DerivativeOutputs<T>& out_;
-  const Options& options_;
-  Request<T> request_;
-  GridPlan<T> plan_;
-  std::size_t samples_ = 0;
 };
 
 } // namespace

@@ -112,7 +112,7 @@ private:
 };
 
 template <typename T>
-using PatchSamplesCall = SamplesCall<T, PatchSet, Samples<T>, SamplesWork<T>>;
+using PatchSamplesCall = SamplesCall<T, Given<T, PatchSet<T>, Samples<T>>, SamplesWork<T>>;
 
 } // namespace
 } // namespace detail

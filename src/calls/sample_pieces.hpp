@@ -46,10 +46,10 @@ private:
 };
 
 /// The call on single samples. Work: made of what is given and what is resolved.
-template <typename T, template <typename> typename Set, typename Where, typename Work>
-class SamplesCall : public OutputCall<T, Set, Where> {
+template <typename T, typename Arguments, typename Work>
+class SamplesCall : public ArgumentsCall<T, Arguments> {
 public:
-  using OutputCall<T, Set, Where>::OutputCall;
+  using ArgumentsCall<T, Arguments>::ArgumentsCall;
 
   Status check() noexcept {
     const SampleArrays<T> arrays(this->in_.where);
