@@ -286,29 +286,17 @@ template void find_position_bounds(const PatchSet<double>&, Isa, std::size_t, st
 
 template <typename T>
 ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noexcept {
-  ErrorBounds bounds;
-  Isa chosen = Isa::automatic;
-  if (resolve_isa(isa, chosen) != Status::ok) {
-    for (double* const of : {bounds.position, bounds.du, bounds.dv}) {
-      std::fill_n(of, kMostComponents, std::numeric_limits<double>::infinity());
+  return detail::find_bounds<ErrorBounds>(set, patch, isa, [&](bool fuses, ErrorBounds& bounds) {
+    const detail::PatchPlace place = set.storage()->place(patch);
+    detail::Certificate<T> certificate(set.storage()->buckets[place.bucket], fuses, true);
+    certificate.look_at(place.index);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
+      const detail::Bound bound = certificate.component(c);
+      bounds.position[c] = bound.position;
+      bounds.du[c] = bound.du;
+      bounds.dv[c] = bound.dv;
     }
-    return bounds;
-  }
-  if (patch >= set.size()) {
-    return bounds;
-  }
-  const detail::DefaultFpEnvironment environment;
-  const detail::PatchPlace place = set.storage()->place(patch);
-  const detail::PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
-  detail::Certificate<T> certificate(storage, fuses_multiply_add(chosen), true);
-  certificate.look_at(place.index);
-  for (int c = 0; c < storage.shape.components; ++c) {
-    const detail::Bound bound = certificate.component(static_cast<std::size_t>(c));
-    bounds.position[c] = bound.position;
-    bounds.du[c] = bound.du;
-    bounds.dv[c] = bound.dv;
-  }
-  return bounds;
+  });
 }
 
 template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<float>&, std::size_t, Isa) noexcept;

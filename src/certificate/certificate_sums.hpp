@@ -8,6 +8,9 @@
 #include <cstddef>
 #include <limits>
 
+#include <simdbezier/options.hpp>
+
+#include "src/runtime/fp_environment.hpp"
 #include "src/storage/even_odd_rule.hpp"
 #include "src/storage/given_points.hpp"
 #include "src/storage/net_shape.hpp"
@@ -146,6 +149,23 @@ double unless_overflow(double bound, double way) {
   constexpr double kMost =
       static_cast<double>(std::numeric_limits<T>::max()) / 8; // halves scale by 4
   return way < kMost ? bound : std::numeric_limits<double>::infinity();
+}
+
+/// What error_bounds() returns: what find(fuses, bounds) writes for a member of the set.
+template <typename Bounds, typename Set, typename Find>
+Bounds find_bounds(const Set& set, std::size_t member, Isa isa, const Find& find) noexcept {
+  Bounds bounds;
+  Isa chosen = Isa::automatic;
+  if (resolve_isa(isa, chosen) != Status::ok) {
+    auto& [position, first, second] = bounds;
+    for (double* const of : {position, first, second}) {
+      std::fill_n(of, kMostComponents, std::numeric_limits<double>::infinity());
+    }
+  } else if (member < set.size()) {
+    const DefaultFpEnvironment environment;
+    find(fuses_multiply_add(chosen), bounds);
+  }
+  return bounds;
 }
 
 /// Some control points, `step` of them apart.

@@ -220,27 +220,17 @@ template void find_position_bounds(const CurveSet<double>&, Isa, std::size_t, st
 
 template <typename T>
 CurveErrorBounds error_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa) noexcept {
-  CurveErrorBounds bounds;
-  Isa chosen = Isa::automatic;
-  if (resolve_isa(isa, chosen) != Status::ok) {
-    for (double* const of : {bounds.position, bounds.d1, bounds.d2}) {
-      std::fill_n(of, kMostComponents, std::numeric_limits<double>::infinity());
-    }
-    return bounds;
-  }
-  if (curve >= set.size()) {
-    return bounds;
-  }
-  const detail::DefaultFpEnvironment environment;
-  detail::CurveCertificate<T> certificate(*set.storage(), fuses_multiply_add(chosen), 2);
-  certificate.look_at(curve);
-  for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
-    const detail::ByOrder error = certificate.bounds(c);
-    bounds.position[c] = error.at[0];
-    bounds.d1[c] = error.at[1];
-    bounds.d2[c] = error.at[2];
-  }
-  return bounds;
+  return detail::find_bounds<CurveErrorBounds>(
+      set, curve, isa, [&](bool fuses, CurveErrorBounds& bounds) {
+        detail::CurveCertificate<T> certificate(*set.storage(), fuses, 2);
+        certificate.look_at(curve);
+        for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
+          const detail::ByOrder error = certificate.bounds(c);
+          bounds.position[c] = error.at[0];
+          bounds.d1[c] = error.at[1];
+          bounds.d2[c] = error.at[2];
+        }
+      });
 }
 
 template SIMDBEZIER_API CurveErrorBounds error_bounds(const CurveSet<float>&, std::size_t,
