@@ -48,12 +48,10 @@ public:
     Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);
     for (std::size_t unit = begin; unit < end;) {
       const GridPiece piece = piece_at(unit, end);
-      const std::size_t after = unit + piece.patches;
-      const GridPiece next = piece_at(after, end);
       const std::size_t sample = (patch_of(unit) * plan_.nv() + piece.first_row) * plan_.nu();
-      evaluator.run(plan_, piece, {outputs_, delivery, sample}, after < end ? &next : nullptr);
+      evaluator.run(plan_, piece, {outputs_, delivery, sample});
       delivery.end(piece.patches * (piece.last_row - piece.first_row) * plan_.nu());
-      unit = after;
+      unit += piece.patches;
     }
     delivery.finish();
     return evaluator.executed();
