@@ -286,7 +286,7 @@ class PatchSet {
   #wish(wanted, known, call) {
     expectKnown(wanted, known);
     const { grid, weld = true, crease, normals = true, ...options } = wanted;
-    if (crease !== undefined && !(weld && normals)) fail('crease: expected without weld: false and normals: false, found both');
+    if (crease !== undefined && !(weld && normals)) fail('crease: expected neither with weld: false nor with normals: false');
     const wish = { ...options, normals, crease: weld ? crease : 0 };
     if (grid !== undefined) {
       [wish.nu, wish.nv] = grid?.[Symbol.iterator] ? grid : [grid, grid];
