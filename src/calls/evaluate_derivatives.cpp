@@ -48,14 +48,14 @@ struct DerivativesGiven {
         return Status::bad_degree;
       }
     }
-    const MemoryRange list[] = {wanted};
+    MemoryRange ranges[4] = {wanted}; // of inputs there are three at most
+    std::copy(inputs.begin(), inputs.end(), ranges + 1);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const auto check_beside = [&](const Vectors<T>* other, std::span<const MemoryRange> ranges) {
+      const auto check_beside = [&](const Vectors<T>* other, std::span<const MemoryRange> known) {
         const OutputList<T> out(&wanted[i].out, other);
-        return check_outputs(out, samples, components.dimension, ranges);
+        return check_outputs(out, samples, components.dimension, known);
       };
-      Status status = check_beside(nullptr, list);
-      status = status ? check_beside(nullptr, inputs) : status;
+      Status status = check_beside(nullptr, {ranges, inputs.size() + 1});
       for (std::size_t k = 0; k < i && status; ++k) {
         status = check_beside(&wanted[k].out, {});
       }
