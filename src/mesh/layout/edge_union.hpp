@@ -67,31 +67,6 @@ void walk_segments(std::uint32_t rate, std::uint32_t other, const Visit& visit) 
   }
 }
 
-namespace unions {
-
-/// walk_union() in the usual case: two sides of different rates.
-template <typename Visit>
-std::uint32_t walk_two(const std::uint32_t* rates, std::uint32_t* next, const Visit& visit) {
-  const std::uint64_t a = rates[0];
-  const std::uint64_t b = rates[1];
-  std::uint64_t at_a = 0; // next[0] b and next[1] a: over a common denominator
-  std::uint64_t at_b = 0;
-  for (std::uint32_t place = 0;; ++place) {
-    const bool first = at_a <= at_b;
-    const bool both = at_a == at_b;
-    visit(place, static_cast<const std::uint32_t*>(next), std::size_t{first ? 0U : 1U});
-    if (at_a == a * b && both) {
-      return place;
-    }
-    next[0] += first ? 1 : 0;
-    at_a += first ? b : 0;
-    next[1] += !first || both ? 1 : 0;
-    at_b += !first || both ? a : 0;
-  }
-}
-
-} // namespace unions
-
 /// Passes all fractions in ascending order, equal ones at once: visit(place, next, k) after `place`
 /// segments, where next[i] is the numerator that rate i has come to, and next[k] / rates[k] is the
 /// fraction. Returns the number of segments.
@@ -101,9 +76,6 @@ template <typename Visit>
 std::uint32_t walk_union(std::span<const std::uint32_t> rates, std::uint32_t* next,
                          const Visit& visit) {
   std::fill_n(next, rates.size(), 0U);
-  if (rates.size() == 2) {
-    return unions::walk_two(rates.data(), next, visit);
-  }
   for (std::uint32_t place = 0;; ++place) {
     std::size_t lowest = 0;
     for (std::size_t k = 1; k < rates.size(); ++k) {

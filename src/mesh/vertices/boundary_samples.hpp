@@ -116,14 +116,7 @@ public:
                    [this](std::uint32_t side) { return mesh_.rate(side); });
     sort_range(rates, rates + sides.size());
     const auto count = static_cast<std::size_t>(std::unique(rates, rates + sides.size()) - rates);
-    std::size_t points = 0;
-    walk_union({rates, count}, scratch_ + sides.size(),
-               [&](std::uint32_t, const std::uint32_t* next, std::size_t lowest) {
-                 if (next[lowest] > 0 && next[lowest] < rates[lowest]) {
-                   line_.put(points++, next[lowest], rates[lowest]);
-                 }
-               });
-    return line_.finish(points);
+    return line_.fill({rates, count}, scratch_ + sides.size());
   }
 
 private:

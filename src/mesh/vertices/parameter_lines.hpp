@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "src/calls/grid_plan.hpp"
 #include "src/mesh/layout/edge_union.hpp"
@@ -32,11 +33,17 @@ struct LineMemory {
   LineMemory(T* memory, std::size_t most_segments) noexcept
       : along(memory), shares(memory + most_segments + kMaxLanes) {}
 
-  void put(std::size_t point, std::uint32_t numerator, std::uint32_t denominator) const noexcept {
-    along[point] = uniform_parameter<T>(numerator, denominator);
-    shares[point] = static_cast<T>(numerator) / static_cast<T>(denominator);
-  }
-  [[nodiscard]] ParameterLine<T> finish(std::size_t points) const noexcept {
+  /// The points of all of these rates. next: memory for as many values.
+  ParameterLine<T> fill(std::span<const std::uint32_t> rates, std::uint32_t* next) const noexcept {
+    std::size_t points = 0;
+    walk_union(rates, next, [&](std::uint32_t, const std::uint32_t* at, std::size_t lowest) {
+      const std::uint32_t numerator = at[lowest];
+      const std::uint32_t denominator = rates[lowest];
+      if (numerator > 0 && numerator < denominator) {
+        along[points] = uniform_parameter<T>(numerator, denominator);
+        shares[points++] = static_cast<T>(numerator) / static_cast<T>(denominator);
+      }
+    });
     std::fill_n(along + points, kMaxLanes, points > 0 ? along[points - 1] : T(0));
     return {along, shares};
   }
@@ -99,13 +106,7 @@ private:
   static void fill(const Rates& rates, const LineMemory<T>& to) noexcept {
     const std::uint32_t both[2] = {rates.a, rates.b};
     std::uint32_t next[2];
-    std::size_t points = 0;
-    walk_union(both, next, [&](std::uint32_t, const std::uint32_t* at, std::size_t lowest) {
-      if (at[lowest] > 0 && at[lowest] < both[lowest]) {
-        to.put(points++, at[lowest], both[lowest]);
-      }
-    });
-    static_cast<void>(to.finish(points));
+    to.fill(both, next);
   }
 
   T* memory_;
