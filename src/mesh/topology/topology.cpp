@@ -169,22 +169,19 @@ TopologyCounts Topology::counts(SetRange patches) const noexcept {
     for (std::size_t side = kPatchEdges * p; side < kPatchEdges * (p + 1); ++side) {
       counts.collapsed_sides += data_->sides[side].collapsed() ? 1 : 0;
     }
-    data_->for_owned(
-        p, [&](std::uint32_t) { ++counts.corners; },
-        [&](std::uint32_t edge) {
-          const auto sides = data_->sides_of(edge);
-          ++counts.edges;
-          counts.open_edges += sides.size() == 1 ? 1 : 0;
-          counts.non_manifold_edges += sides.size() > 2 ? 1 : 0;
-          // As the patches are given, whichever have been turned.
-          const auto given = [&](std::uint32_t side) {
-            return data_->is_turned(side / kPatchEdges);
-          };
-          counts.turned_edges += sides.size() == 2 && data_->disagree(sides[0], sides[1]) !=
-                                                          (given(sides[0]) != given(sides[1]))
-                                     ? 1
-                                     : 0;
-        });
+    data_->for_owned_corners(p, [&](std::uint32_t) { ++counts.corners; });
+    data_->for_owned_edges(p, [&](std::uint32_t edge) {
+      const auto sides = data_->sides_of(edge);
+      ++counts.edges;
+      counts.open_edges += sides.size() == 1 ? 1 : 0;
+      counts.non_manifold_edges += sides.size() > 2 ? 1 : 0;
+      // As the patches are given, whichever have been turned.
+      const auto given = [&](std::uint32_t side) { return data_->is_turned(side / kPatchEdges); };
+      counts.turned_edges += sides.size() == 2 && data_->disagree(sides[0], sides[1]) !=
+                                                      (given(sides[0]) != given(sides[1]))
+                                 ? 1
+                                 : 0;
+    });
   }
   return counts;
 }

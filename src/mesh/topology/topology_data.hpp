@@ -190,11 +190,6 @@ struct TopologyData {
   }
 
   /// Calls at_corner(lowest of the joined corners) and at_edge(edge) for those that a patch owns.
-  template <typename AtCorner, typename AtEdge>
-  void for_owned(std::size_t patch, const AtCorner& at_corner, const AtEdge& at_edge) const {
-    for_owned_corners(patch, at_corner);
-    for_owned_edges(patch, at_edge);
-  }
   template <typename AtCorner>
   void for_owned_corners(std::size_t patch, const AtCorner& at_corner) const {
     unsigned owned = 0; // 1 << corner
