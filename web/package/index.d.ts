@@ -32,7 +32,7 @@ export interface MeshOptions {
   /** false: patches share no vertices. true by default. */
   weld?: boolean;
   /** Edges whose patches meet at this angle or a larger one, in degrees, keep two normals. 0: patches share no vertices.
-   * By default all normals are merged. */
+   * By default all normals are merged. Not beside `weld: false` or `normals: false`. */
   crease?: number;
   /** The distance within which open sides become one edge. */
   snap?: number;
@@ -44,7 +44,7 @@ export interface MeshOptions {
   orient?: boolean;
   /** Then turns all of them. */
   flip?: boolean;
-  /** Fewer triangles within the distance, in more time: for models that stay. */
+  /** Fewer triangles within `tolerance` or `relative`, one of which it needs, in more time: for models that stay. */
   thorough?: boolean;
 }
 
