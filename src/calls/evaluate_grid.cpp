@@ -48,10 +48,12 @@ public:
     Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);
     for (std::size_t unit = begin; unit < end;) {
       const GridPiece piece = piece_at(unit, end);
+      const std::size_t after = unit + piece.patches;
+      const GridPiece next = piece_at(after, end);
       const std::size_t sample = (patch_of(unit) * plan_.nv() + piece.first_row) * plan_.nu();
-      evaluator.run(plan_, piece, {outputs_, delivery, sample});
+      evaluator.run(plan_, piece, {outputs_, delivery, sample}, after < end ? &next : nullptr);
       delivery.end(piece.patches * (piece.last_row - piece.first_row) * plan_.nu());
-      unit += piece.patches;
+      unit = after;
     }
     delivery.finish();
     return evaluator.executed();

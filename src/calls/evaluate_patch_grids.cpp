@@ -49,7 +49,7 @@ public:
       const GridPlan<T>& plan = plans.find(nu, nv);
       if (const std::size_t alike = alike_from(k, begin, end); alike > 1) {
         const GridPiece piece{first_patch_ + k, alike, 0, nv};
-        evaluator.run(plan, piece, {outputs_, delivery, grids_.offset(k)});
+        evaluator.run(plan, piece, {outputs_, delivery, grids_.offset(k)}, nullptr);
         delivery.end(alike * nv * nu);
         k += alike;
         continue;
@@ -62,7 +62,9 @@ public:
         const std::size_t most = std::min(std::max<std::size_t>(piece_samples_ / nu, 1), kMostRows);
         const std::size_t rows = std::min(last - row, most);
         const GridPiece piece{first_patch_ + k, 1, row, row + rows};
-        evaluator.run(plan, piece, {outputs_, delivery, grids_.offset(k) + row * nu});
+        const GridPiece next = piece_after(piece, k, last, most);
+        evaluator.run(plan, piece, {outputs_, delivery, grids_.offset(k) + row * nu},
+                      next == piece ? nullptr : &next);
         delivery.end(rows * nu);
         row += rows;
       }
@@ -79,6 +81,18 @@ private:
     const std::size_t samples = grids_.nu(k) * grids_.nv(k);
     const std::size_t most = outputs_.staged() ? piece_samples_ / samples : grids_.size();
     return grids_.nv(k) <= kMostRows && grids_.before(k) >= begin ? grids_.alike(k, end, most) : 1;
+  }
+  /// The next rows of patch k, of which there are `last`, or the first ones of the patch behind it
+  /// where its grid is the same; otherwise the piece itself.
+  [[nodiscard]] GridPiece piece_after(const GridPiece& piece, std::size_t k, std::size_t last,
+                                      std::size_t most) const noexcept {
+    const std::size_t row = piece.last_row;
+    if (row < last) {
+      return {piece.patch, 1, row, std::min(row + most, last)};
+    }
+    const bool alike = k + 1 < grids_.size() && grids_.nu(k + 1) == grids_.nu(k) &&
+                       grids_.nv(k + 1) == grids_.nv(k);
+    return alike ? GridPiece{piece.patch + 1, 1, 0, std::min(most, grids_.nv(k))} : piece;
   }
 
   PatchKernels<T> kernels_;

@@ -170,7 +170,7 @@ public:
       tile.row_count = piece.last_row - first_row;
       tile.samples = patches * tile.row_count * tile.nu;
       tile.out = places;
-      evaluator.run(plan_, piece, {outputs, delivery, 0});
+      evaluator.run(plan_, piece, {outputs, delivery, 0}, nullptr);
       delivery.end(tile.samples);
       delivery.finish();
       function_(tile);

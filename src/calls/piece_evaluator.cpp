@@ -26,24 +26,30 @@ void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
 
 template <typename T>
 std::size_t PieceEvaluator<T>::scratch_bytes(std::size_t rows) noexcept {
-  return rows > kInlineRows ? rows * sizeof(RowRun<T>) : 0;
+  return rows > kInlineRows ? 2 * rows * sizeof(RowRun<T>) : 0;
 }
 
 template <typename T>
 PieceEvaluator<T>::PieceEvaluator(const PatchKernels<T>& kernels, std::size_t rows,
                                   void* scratch) noexcept
-    : kernels_(kernels),
-      runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
+    : kernels_(kernels) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    prepared_[k].runs =
+        rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) + k * rows : inline_runs_[k];
+  }
+}
 
 template <typename T>
-void PieceEvaluator<T>::find_rows(const GridPlan<T>& plan, const GridPiece& piece) noexcept {
-  if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
-      last_row_ != piece.last_row) {
-    plan_ = &plan;
-    generation_ = plan.generation();
-    first_row_ = piece.first_row;
-    last_row_ = piece.last_row;
-    run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
+void PieceEvaluator<T>::Prepared::find_rows(const GridPlan<T>& where,
+                                            const GridPiece& rows) noexcept {
+  if (plan != &where || generation != where.generation() || first_row != rows.first_row ||
+      last_row != rows.last_row) {
+    plan = &where;
+    generation = where.generation();
+    first_row = rows.first_row;
+    last_row = rows.last_row;
+    run_count = where.fill_runs(first_row, last_row, runs);
+    ahead = false;
   }
 }
 
@@ -107,13 +113,13 @@ Isa PieceEvaluator<T>::run_at_once(const PatchKernels<T>& kernels, const GridPla
 }
 
 template <typename T>
-void PieceEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
-                            const Target& to) noexcept {
-  find_rows(plan, piece);
+void PieceEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to,
+                            const GridPiece* next) noexcept {
+  prepared_[turn_].find_rows(plan, piece);
   if (kernels_.set->places != nullptr) {
     run_mixed(plan, piece, to);
   } else {
-    run_bucket(kernels_.set->buckets[0], plan, piece, to);
+    run_bucket(kernels_.set->buckets[0], plan, piece, to, next);
   }
 }
 
@@ -132,17 +138,32 @@ void PieceEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piec
     Planes<T> planes[kVectorOutputs];
     const Target part = to.from(k * patch_samples, planes);
     run_bucket(kernels_.set->buckets[places[k].bucket], plan,
-               {places[k].index, last - k, piece.first_row, piece.last_row}, part);
+               {places[k].index, last - k, piece.first_row, piece.last_row}, part, nullptr);
     k = last;
   }
 }
 
 template <typename T>
 void PieceEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan,
-                                   const GridPiece& piece, const Target& to) noexcept {
-  fill(task_, kernels_, bucket, plan, piece, {runs_, run_count_}, to);
-  run_task(task_, kernels_, to);
-  executed_ = task_.executed;
+                                   const GridPiece& piece, const Target& to,
+                                   const GridPiece* next) noexcept {
+  Prepared& now = prepared_[turn_];
+  if (!now.ahead || !(now.piece == piece) || to.status != nullptr || kernels_.choice.any_shape) {
+    fill(now.task, kernels_, bucket, plan, piece, {now.runs, now.run_count}, to);
+  }
+  now.ahead = false;
+  if (to.drain != nullptr && to.next != nullptr && next != nullptr) {
+    turn_ = 1 - turn_;
+    Prepared& later = prepared_[turn_];
+    later.find_rows(plan, *next);
+    Target after = to;
+    after.planes = to.next;
+    fill(later.task, kernels_, bucket, plan, *next, {later.runs, later.run_count}, after);
+    later.ahead = true;
+    later.piece = *next;
+  }
+  run_task(now.task, kernels_, to);
+  executed_ = now.task.executed;
 }
 
 template class PieceEvaluator<float>;

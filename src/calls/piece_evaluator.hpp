@@ -16,10 +16,12 @@ struct GridPiece {
   std::size_t patches;
   std::size_t first_row;
   std::size_t last_row;
+
+  friend bool operator==(const GridPiece&, const GridPiece&) = default;
 };
 
-/// One thread's evaluator. Remembers the rows of the last piece, which most often are those of the
-/// next one.
+/// One thread's evaluator. Remembers the rows of the last pieces, which most often are those of the
+/// next ones.
 template <typename T>
 class PieceEvaluator {
 public:
@@ -36,6 +38,7 @@ public:
     T* curvature[kCurvatureKinds] = {}; ///< may be null
     DrainQueue<T>* drain = nullptr;     ///< may be null
     bool streaming = false;             ///< see OutputPlan::put_directly()
+    const Planes<T>* next = nullptr;    ///< with a drain: the planes of the piece after this one
     std::size_t record = 1;             ///< see GridTask
 
     /// The piece whose first sample has the caller's index `sample`; its planes are these.
@@ -50,6 +53,7 @@ public:
     Target(const OutputPlan<T>& outputs, Delivery<T>& delivery, std::size_t sample) noexcept
         : Target(outputs, delivery.begin(sample), sample) {
       drain = delivery.queue();
+      next = delivery.next();
     }
     /// The rest of the piece from one of its samples on, for patches that are no longer staged
     /// together; its planes are formed in `memory`.
@@ -68,11 +72,15 @@ public:
       rest.planes = memory;
       rest.status = status == nullptr ? nullptr : status + sample;
       rest.streaming = false;
+      rest.next = nullptr;
       rest.record = 1;
       return rest;
     }
   };
-  void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
+  /// Evaluates a piece. next: the piece after this one on the same plan, as far as the caller
+  /// knows; null otherwise.
+  void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to,
+           const GridPiece* next) noexcept;
 
   /// Whether kernels can take all patches of a call at once: they write outputs to their places, on
   /// few rows, and the patches have one shape.
@@ -94,8 +102,21 @@ public:
 private:
   static constexpr std::size_t kInlineRows = 128;
 
-  /// Describes the rows of a piece, unless they are those of the last one.
-  void find_rows(const GridPlan<T>& plan, const GridPiece& piece) noexcept;
+  /// A task is copied in large pieces by the kernels, so with streaming stores it is written one
+  /// piece ahead (see src/tables/drain_queue.hpp).
+  struct Prepared {
+    GridTask<T> task; ///< written by fill()
+    RowRun<T>* runs = nullptr;
+    std::size_t run_count = 0;
+    const GridPlan<T>* plan = nullptr; ///< of runs, with the three below
+    std::uint32_t generation = 0;
+    std::size_t first_row = 0;
+    std::size_t last_row = 0;
+    bool ahead = false; ///< the task is that of `piece`
+    GridPiece piece{};
+
+    void find_rows(const GridPlan<T>& where, const GridPiece& rows) noexcept;
+  };
 
   /// Writes the task of a piece on rows that these runs describe. bucket, piece.patch: where the
   /// piece's patches are stored.
@@ -106,19 +127,14 @@ private:
   static void run_task(GridTask<T>& task, const PatchKernels<T>& kernels,
                        const Target& to) noexcept;
   void run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan, const GridPiece& piece,
-                  const Target& to) noexcept;
+                  const Target& to, const GridPiece* next) noexcept;
   void run_mixed(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
   const PatchKernels<T>& kernels_;
   Isa executed_ = Isa::automatic;
-  GridTask<T> task_; ///< written by fill()
-  RowRun<T>* runs_;
-  std::size_t run_count_ = 0;
-  const GridPlan<T>* plan_ = nullptr; ///< of runs_, with the three below
-  std::uint32_t generation_ = 0;
-  std::size_t first_row_ = 0;
-  std::size_t last_row_ = 0;
-  RowRun<T> inline_runs_[kInlineRows];
+  Prepared prepared_[2];
+  std::size_t turn_ = 0;
+  RowRun<T> inline_runs_[2][kInlineRows];
 };
 
 } // namespace simdbezier::detail

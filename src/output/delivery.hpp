@@ -28,6 +28,8 @@ public:
   /// The planes that the kernel is to put a chunk in, whose first sample has the caller's index
   /// `sample`, until end(): those of each vector output, null where not wanted.
   const Planes<T>* begin(std::size_t sample) noexcept;
+  /// The planes of the chunk after it, where all planes are staged.
+  [[nodiscard]] const Planes<T>* next() const noexcept { return planes_[1 - buffer_]; }
   /// What the kernel passes on meanwhile; null where there is nothing to overlap.
   [[nodiscard]] DrainQueue<T>* queue() noexcept {
     return plan_.streaming() && plan_.staged() ? &queue_ : nullptr;

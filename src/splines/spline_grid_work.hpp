@@ -160,7 +160,7 @@ public:
       for (const SpanRun& u : u_.runs) {
         grid.view(u_.parameters.data() + u.at, u.count, v_.parameters.data() + v.at, v.count);
         const std::size_t patch = first_patch_ + v.span * u_.spans + u.span;
-        evaluator.run(grid, {patch, 1, 0, v.count}, to);
+        evaluator.run(grid, {patch, 1, 0, v.count}, to, nullptr);
         put(u, v, to, rows);
       }
       delivery.end(v.count * u_.count);
