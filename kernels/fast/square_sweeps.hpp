@@ -7,6 +7,16 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// Whether tiles of such squares are two registers. Planes of derivatives that go one by one have
+/// half the polynomials at a time, so that there is room for two of AVX2's registers: squares
+/// of 17.
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
+constexpr bool
+    kSquaresInPairs = kSweepsTwice<kOutputs, T> ||
+                      (kOutputs == detail::kPositionDerivatives &&
+                       kGoesPlaneByPlane<SquarePiece<T, kSide, false>,
+                                         ColumnTile<1, true, true, RegisterPair<vec<T>>>>);
+
 /// Sweeps all tiles of patches [patch, end) of a grid of kSide x kSide, choosing as sweep_tiles()
 /// does.
 template <detail::OutputSet kOutputs, std::size_t kSide, bool kAcross, typename T>
@@ -16,13 +26,7 @@ SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kRest = kSide % kL;
-  // Planes that go one by one have half the polynomials at a time, so that there is room for two of
-  // AVX2's registers: squares of 17.
-  constexpr bool kByPlanes =
-      kOutputs == detail::kPositionDerivatives &&
-      kGoesPlaneByPlane<SquarePiece<T, kSide, kAcross>, ColumnTile<1, true, true, RegisterPair<V>>>;
-  if constexpr ((kSweepsTwice<kOutputs, T> || kByPlanes) && kSide >= 2 * kL &&
-                kSide % (2 * kL) <= 1) {
+  if constexpr (kSquaresInPairs<kOutputs, kSide, T> && kSide >= 2 * kL && kSide % (2 * kL) <= 1) {
     using W = RegisterPair<V>;
     constexpr std::size_t kLast = kSide - kRest - 2 * kL;
     for (std::size_t first = 0; first < kLast; first += 2 * kL) {
@@ -65,11 +69,13 @@ constexpr bool kIsStagedStream = (kSide <= kLanes<vec<T>> + 1) &&
                                   (kOutputs == detail::kPositionDerivatives));
 
 /// Whether straight code pays for them on any machine: not where roots set the pace, nor for
-/// derivatives of rows of four registers, which are faster side by side, in bands.
+/// derivatives of rows of more than one tile, which are faster side by side, in bands.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-constexpr bool kIsStraight = kOutputs == detail::kPositionNormal        ? kSide != 16
-                             : kOutputs == detail::kPositionDerivatives ? kSide < 4 * kLanes<vec<T>>
-                                                                        : true;
+constexpr bool
+    kIsStraight = kOutputs == detail::kPositionNormal ? kSide != 16
+                  : kOutputs == detail::kPositionDerivatives
+                      ? kSide <= (kSquaresInPairs<kOutputs, kSide, T> ? 2 : 1) * kLanes<vec<T>> + 1
+                      : true;
 
 /// Whether rows of such squares have a column or a part of a register behind whole ones, which
 /// straight code has for machines with cheap stores across lines. Normals are the same everywhere.

@@ -180,7 +180,7 @@ struct Squares {
   }
 };
 
-/// All registers of a row side by side, with the columns behind them as tiles.
+/// All registers of a row side by side.
 template <detail::OutputSet kOutputs, typename T>
 struct Bands {
   static constexpr GridStrategy kName = GridStrategy::bands;
@@ -193,7 +193,7 @@ struct Bands {
     if constexpr (kNormals) {
       return pays_in_normal_bands(task, piece);
     } else {
-      return pays_in_bands<kOutputs>(task, piece, BandPlan<kOutputs, vec<T>>(task));
+      return pays_in_bands<kOutputs>(task, piece);
     }
   }
   static SIMDBEZIER_PART void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
@@ -201,13 +201,7 @@ struct Bands {
     if constexpr (kNormals) {
       sweep_normal_bands(task, piece, patch, end);
     } else {
-      const std::size_t swept = sweep_bands<kOutputs>(task, piece, patch, end);
-      if (swept < task.nu) {
-        with_known_edges(task, [&]<Known kKnown>() SIMDBEZIER_INLINE_LAMBDA {
-          const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
-          sweep_rest<kOutputs, T>(tiles, swept, task.nu - swept);
-        });
-      }
+      sweep_bands<kOutputs>(task, piece, patch, end);
     }
   }
 };

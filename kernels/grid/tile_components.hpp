@@ -142,9 +142,9 @@ struct JetRows {
   }
 };
 
-/// Whether a tile sweeps the planes of derivatives one after the other, as fast/row_bands.hpp does:
-/// squares of floats whose rows are no whole registers, which one tile of at least a line covers.
-/// There are no origins.
+/// Whether a tile sweeps the planes of derivatives one after the other, each of which has fewer
+/// polynomials: squares of floats whose rows are no whole registers, which one tile of at least a
+/// line covers. There are no origins.
 template <typename Piece, typename SomeTile>
 constexpr bool kGoesPlaneByPlane = false;
 template <std::size_t kSide, typename SomeTile>

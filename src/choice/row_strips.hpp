@@ -40,9 +40,9 @@ template <typename T>
   // (kernels/fast/row_bands.hpp) comes to each line once, and has room until each row is a page.
   const bool in_bands =
       task.origins == nullptr && distance < 4096 &&
-      (outputs == kPositionNormal
-           ? register_bytes >= 16
-           : register_bytes >= 32 && (outputs == kPosition || outputs == kPositionDerivatives));
+      (outputs == kPositionNormal ? register_bytes >= 16
+       : outputs == kPosition     ? register_bytes == 32
+                                  : register_bytes >= 32 && outputs == kPositionDerivatives);
   const bool leaves = task.drain != nullptr || (line_wide && task.plain_to_memory);
   if (distance < 512 || task.streaming || task.record > 1 || leaves || in_bands) {
     return kAll;
