@@ -42,8 +42,10 @@ constexpr bool kSweepsBands = kMakesLines<vec<T>> &&
                               (kOutputs == detail::kPositionDerivatives ||
                                (kOutputs == detail::kPosition && !kLineWide<vec<T>>));
 
-/// The most registers of a band. Each number from two on has code of its own.
-constexpr std::size_t kMostInBand = 9;
+/// The most registers of a band. Each number from two on has code of its own, and more would gain
+/// less than theirs costs.
+template <typename V>
+constexpr std::size_t kMostInBand = kLineWide<V> ? 4 : 8;
 
 /// Whether rows of the task lie a multiple of 512 bytes apart, and leave the cache while one tile
 /// follows the other. Below 4096 bytes there are no strips of such rows
@@ -68,6 +70,12 @@ SIMDBEZIER_PART bool rows_leave(const GridTask<T>& task, std::size_t rows) {
 template <typename V>
 SIMDBEZIER_PART std::size_t band_registers(std::size_t nu) {
   return (nu + kLanes<V> - 1) / kLanes<V>;
+}
+
+/// Whether a single column is left behind two whole registers or more.
+template <typename V>
+SIMDBEZIER_PART bool has_single_column(std::size_t nu) {
+  return nu > 2 * kLanes<V> && nu % kLanes<V> == 1;
 }
 
 /// Whether bands are faster than tiles. In staging, samples are passed on in smaller portions tile

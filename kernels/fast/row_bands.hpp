@@ -5,81 +5,102 @@
 // twice as long as side by side; and every row of a tile would be one more stream for the
 // prefetchers on the way to the second-level cache. Polynomials for which there are no registers
 // left are operands in memory. If columns are no whole registers, the last one begins within the
-// one before it.
+// one before it. A single column behind whole registers is swept down the column instead, into a
+// buffer, from which each row takes its own.
 #pragma once
 
 #include "kernels/fast/band_plan.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// kCount tiles of a register each.
-template <detail::OutputSet kOutputs, std::size_t kCount, typename V>
+/// kCount tiles of a register each; kSingle: and a column in a buffer behind them.
+template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, typename V>
 class RowBand {
   using T = ScalarOf<V>;
   using Tile = ColumnTile<1, true, false, V>;
+  using Last = ColumnTile<1, true, kSingle, V>;
   static constexpr std::size_t kL = kLanes<V>;
   static constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
-  /// Registers of a line have more to do for stores than for products, and rows in order are stored
-  /// faster than rows from both ends.
-  static constexpr RowPairs kPairs = kLineWide<V> ? RowPairs::never : RowPairs::always;
+  /// Registers of a line have more to do for stores than for products. If stores across lines are
+  /// slow, rows in order are stored faster than rows from both ends.
+  static constexpr RowPairs kPairs =
+      kLineWide<V> ? RowPairs::where_splits_are_cheap : RowPairs::always;
 
 public:
   /// The band is columns [first, end).
   SIMDBEZIER_PART RowBand(const GridTask<T>& task, std::size_t first, std::size_t end)
-      : RowBand(task, first, end, std::make_index_sequence<kCount>()) {}
+      : RowBand(task, first, end, std::make_index_sequence<kCount - 1>()) {}
 
   /// Sweeps one component, whose planes are given from the band's first column on. A store costs
   /// less if the next one goes to the same line or the one behind it: a row goes plane by plane.
   SIMDBEZIER_PART void sweep(const RowPiece<T>& piece, const Component<T>& c, std::size_t nu,
-                             const JetPlanes<T>& to) const {
+                             const JetPlanes<T>& to, const ColumnPlanes<T>& extra) const {
     JetColumns<V, false> columns[kCount];
-    for_tiles([&](std::size_t k, std::size_t /*column*/) SIMDBEZIER_INLINE_LAMBDA {
+    for_tiles([&](std::size_t k, std::size_t /*column*/, const auto& tile)
+                  SIMDBEZIER_INLINE_LAMBDA {
+                    if constexpr (kJets) {
+                      columns[k].build(c, tile);
+                    } else {
+                      column_polynomial(c, tile.column, columns[k].q);
+                    }
+                  });
+    // Calls put(plane, its number, parts_of), where parts_of(k) are the parts of the k-th tile.
+    const auto for_planes = [&](const RowPoint<V>& at, const auto& put) SIMDBEZIER_INLINE_LAMBDA {
+      put(to.position, 0,
+          [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); });
       if constexpr (kJets) {
-        columns[k].build(c, tile_[k]);
-      } else {
-        column_polynomial(c, tile_[k].column, columns[k].q);
-      }
-    });
-    // Calls put(plane, parts_of(columns)) for each plane and tile.
-    const auto for_parts = [&](const RowPoint<V>& at, const auto& put) SIMDBEZIER_INLINE_LAMBDA {
-      for_tiles([&](std::size_t k, std::size_t column) SIMDBEZIER_INLINE_LAMBDA {
-        put(to.position + column, value_parts(columns[k].q, at));
-      });
-      if constexpr (kJets) {
-        for_tiles([&](std::size_t k, std::size_t column) SIMDBEZIER_INLINE_LAMBDA {
-          put(to.du + column, value_parts(columns[k].dq, at));
-        });
-        for_tiles([&](std::size_t k, std::size_t column) SIMDBEZIER_INLINE_LAMBDA {
-          put(to.dv + column, slope_parts(columns[k].q, at));
-        });
+        put(to.du, 1,
+            [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); });
+        put(to.dv, 2,
+            [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); });
       }
     };
     for_rows<RowOrder{1, kPairs, 1}>(
         piece, 0, nu,
         [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-          for_tiles([&](std::size_t k, std::size_t column) SIMDBEZIER_INLINE_LAMBDA {
-            const std::size_t at = place.at + column;
+          for_tiles([&](std::size_t k, std::size_t column,
+                        const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+            const auto put = [&](T* plane, std::size_t number, V value) SIMDBEZIER_INLINE_LAMBDA {
+              tile.store(plane + place.at + column, nu, value, 1, extra.plane(number) + place.row);
+            };
             if constexpr (kJets) {
-              const Jet<V> jet = columns[k].edge(c, tile_[k], edge_of(kind));
-              store_vector(to.position + at, jet.p);
-              store_vector(to.du + at, jet.du);
-              store_vector(to.dv + at, jet.dv);
+              const Jet<V> jet = columns[k].edge(c, tile, edge_of(kind));
+              put(to.position, 0, jet.p);
+              put(to.du, 1, jet.du);
+              put(to.dv, 2, jet.dv);
             } else {
-              store_vector(to.position + at, tile_[k].edge_rows(c, edge_of(kind)));
+              put(to.position, 0, tile.edge_rows(c, edge_of(kind)));
             }
           });
         },
         [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
-          for_parts(piece.template point<1, V>(y),
-                    [&](T* plane, const Parts<V>& parts) SIMDBEZIER_INLINE_LAMBDA {
-                      store_vector(plane + place.at, parts.sum());
-                      store_vector(plane + mirror.at, parts.difference());
-                    });
+          for_planes(
+              piece.template point<1, V>(y),
+              [&](T* plane, std::size_t number, const auto& parts_of) SIMDBEZIER_INLINE_LAMBDA {
+                const T* const behind = extra.plane(number);
+                V mirrored[kCount];
+                for_tiles([&](std::size_t k, std::size_t column,
+                              const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+                  const Parts<V> parts = parts_of(k);
+                  mirrored[k] = parts.difference();
+                  tile.store(plane + place.at + column, nu, parts.sum(), 1, behind + place.row);
+                });
+                for_tiles([&](std::size_t k, std::size_t column,
+                              const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+                  tile.store(plane + mirror.at + column, nu, mirrored[k], 1, behind + mirror.row);
+                });
+              });
         },
         [&](const T* y, RowPlace place, std::size_t /*rows*/) SIMDBEZIER_INLINE_LAMBDA {
-          for_parts(piece.template point<1, V>(y),
-                    [&](T* plane, const Parts<V>& parts)
-                        SIMDBEZIER_INLINE_LAMBDA { store_vector(plane + place.at, parts.sum()); });
+          for_planes(piece.template point<1, V>(y),
+                     [&](T* plane, std::size_t number, const auto& parts_of)
+                         SIMDBEZIER_INLINE_LAMBDA {
+                           for_tiles([&](std::size_t k, std::size_t column,
+                                         const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+                             tile.store(plane + place.at + column, nu, parts_of(k).sum(), 1,
+                                        extra.plane(number) + place.row);
+                           });
+                         });
         });
   }
 
@@ -87,23 +108,26 @@ private:
   template <std::size_t... k>
   SIMDBEZIER_PART RowBand(const GridTask<T>& task, std::size_t first, std::size_t end,
                           std::index_sequence<k...> /*tiles*/)
-      : tile_{{task.x, k + 1 < kCount ? first + k * kL : end - kL, kL, task.watertight}...},
-        last_column_(end - kL - first) {}
+      : tile_{{task.x, first + k * kL, kL, task.watertight}...},
+        last_(task.x, end - kL, kL, task.watertight), last_column_(end - kL - first) {}
 
-  /// Calls visit(k, column) for all tiles, with the k-th one's first column within the band. All
-  /// but the last one are constants: reading them from memory for each row made it a third slower.
+  /// Calls visit(k, column, tile) for all tiles, with the k-th one's first column within the band.
+  /// All but the last column are constants: reading them from memory for each row made it a third
+  /// slower.
   template <typename Visit>
   SIMDBEZIER_INLINE void for_tiles(const Visit& visit) const {
-    repeat<kCount - 1>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { visit(k, k * kL); });
-    visit(kCount - 1, last_column_);
+    repeat<kCount - 1>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { visit(k, k * kL, tile_[k]); });
+    visit(kCount - 1, kSingle ? (kCount - 1) * kL : last_column_, last_);
   }
 
-  Tile tile_[kCount];
+  Tile tile_[kCount - 1];
+  Last last_;
   std::size_t last_column_;
 };
 
-/// Sweeps columns [first, end) of patches [patch, last_patch) in a band.
-template <detail::OutputSet kOutputs, std::size_t kCount, typename T>
+/// Sweeps columns [first, end) of patches [patch, last_patch) in a band, and the column behind it
+/// if kSingle.
+template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, typename T>
 SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
                                   std::size_t first, std::size_t end, std::size_t patch,
                                   std::size_t last_patch) {
@@ -111,7 +135,11 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const RowPiece<T> piece = shared_piece;
-  const RowBand<kOutputs, kCount, vec<T>> band(task, first, end);
+  const RowBand<kOutputs, kCount, kSingle, vec<T>> band(task, first, end);
+  const SingleColumnTile<vec<T>> column(task.x, kSingle ? end : 0, 1, task.watertight);
+  ColumnBuffer<T, 3> buffer;
+  const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
+  const ColumnPlanes<T> extra = buffer.planes(piece);
   const bool prefetch = task.prefetch && first == 0;
   for (; patch < last_patch; ++patch) {
     if (prefetch) {
@@ -128,7 +156,12 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
         to.du = plane(Output::du);
         to.dv = plane(Output::dv);
       }
-      band.sweep(piece, component, task.nu, to);
+      if constexpr (kSingle && kOutputs == detail::kPositionDerivatives) {
+        sweep_derivatives(piece, component, column, 1, there, extra);
+      } else if constexpr (kSingle) {
+        sweep_position(piece, component, column, 1, there.position, extra);
+      }
+      band.sweep(piece, component, task.nu, to, extra);
     }
   }
 }
@@ -138,15 +171,23 @@ template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_bands(const GridTask<T>& task, const RowPiece<T>& piece,
                                  std::size_t patch, std::size_t last_patch) {
   constexpr std::size_t kL = kLanes<vec<T>>;
-  std::size_t left = band_registers<vec<T>>(task.nu);
+  const bool single = has_single_column<vec<T>>(task.nu);
+  const std::size_t columns = single ? task.nu - 1 : task.nu;
+  std::size_t left = band_registers<vec<T>>(columns);
   for (std::size_t first = 0; left > 0;) {
-    const std::size_t count = even_share(left, kMostInBand);
+    const std::size_t count = even_share(left, kMostInBand<vec<T>>);
     left -= count;
-    const std::size_t end = left > 0 ? first + count * kL : task.nu;
+    const std::size_t end = left > 0 ? first + count * kL : columns;
     const auto sweep_count = [&]<std::size_t kCount>() SIMDBEZIER_INLINE_LAMBDA {
-      sweep_band<kOutputs, kCount>(task, piece, first, end, patch, last_patch);
+      if (single && left == 0) {
+        return sweep_band<kOutputs, kCount, true>(task, piece, first, end, patch, last_patch);
+      }
+      sweep_band<kOutputs, kCount, false>(task, piece, first, end, patch, last_patch);
     };
-    with_one_of<2, 3, 4, 5, 6, 7, 8, 9>(count, sweep_count);
+    with_one_of<2, 3, 4>(count, sweep_count);
+    if constexpr (!kLineWide<vec<T>>) {
+      with_one_of<5, 6, 7, 8>(count, sweep_count);
+    }
     first = end;
   }
 }
