@@ -138,7 +138,7 @@ SIMDBEZIER_INLINE void read_group(const detail::NetView<const S>& nets, std::siz
       load_block<V>(net_at(nets, first) + k, nets.patch_stride, lanes_of<V>(group, k));
     }
   }
-  for (std::size_t p = 0; p < kLanes<V>; ++p) {
+  for (std::size_t p = 0; done < values_of(nets) && p < kLanes<V>; ++p) {
     for_each_value(nets, first + (p < count ? p : count - 1), done,
                    [&](const S* value, std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
                      group[k * kLanes<V> + p] = static_cast<T>(*value) + T(0);
