@@ -70,22 +70,25 @@ struct RateGroup {
   SecondTerms<V> doubt;   ///< what rounding may have taken from vectors
 };
 
-/// Raises both halves of a line from degrees 1 and 2 to 3.
+/// Raises both halves of a line from degrees 1 and 2 to 3. Factors are 1/3 and its double, which
+/// takes a sum that multiplies, and rounds no differently.
 template <std::size_t kValues, typename V, typename Put>
 SIMDBEZIER_INLINE void raise_halves(const V* from, std::size_t step, Put put) {
   using T = ScalarOf<V>;
   static_assert(kValues == 2 || kValues == 3);
+  const V two = broadcast<V>(T(2));
   const V third = broadcast<V>(T(1) / T(3));
-  const V rest = broadcast<V>(T(2) / T(3));
   put(0, from[0]);
   for (std::size_t h = 0; h < 2; ++h) {
     const V* const line = from + h * (kValues - 1) * step;
+    const V first = third * line[0];
+    const V next = third * line[step];
     if constexpr (kValues == 2) {
-      put(3 * h + 1, rest * line[0] + third * line[step]);
-      put(3 * h + 2, third * line[0] + rest * line[step]);
+      put(3 * h + 1, madd(two, first, next));
+      put(3 * h + 2, madd(two, next, first));
     } else {
-      put(3 * h + 1, third * line[0] + rest * line[step]);
-      put(3 * h + 2, rest * line[step] + third * line[2 * step]);
+      put(3 * h + 1, madd(two, next, first));
+      put(3 * h + 2, madd(two, next, third * line[2 * step]));
     }
     put(3 * h + 3, line[(kValues - 1) * step]);
   }
@@ -119,17 +122,6 @@ struct SecondDifferences {
   }
 };
 
-/// Returns the root of the largest of some squares, rows of a net of kColumns.
-template <std::size_t kColumns, typename V>
-SIMDBEZIER_INLINE V largest_length(const V* net, std::size_t columns, std::size_t rows) {
-  V found = net[0];
-  for (std::size_t j = 0; j < rows; ++j) {
-    for (std::size_t i = 0; i < columns; ++i) {
-      found = larger_of<V>(net[j * kColumns + i], found);
-    }
-  }
-  return square_root(found);
-}
 /// Returns the length of the largest of some vectors.
 template <std::size_t kCount, typename V>
 SIMDBEZIER_INLINE V largest_length(const SpaceVector<V> (&vectors)[kCount]) {
@@ -218,19 +210,27 @@ SIMDBEZIER_KERNEL void form_mixed(const SecondDifferences<V>& second, V SpaceVec
 /// the vectors of S_uu in columns 0, 3 and 6, and those of S_vv in such rows.
 template <typename V>
 SIMDBEZIER_INLINE void find_largest(QuarterNets<V>& nets) {
-  V uu[7 * 3];
-  V vv[3 * 7];
-  for (std::size_t k = 0; k < 7; ++k) {
-    for (std::size_t m = 0; m < 3; ++m) {
-      uu[3 * k + m] = nets.at[7 * k + 3 * m].uu.square();
-      vv[7 * m + k] = nets.at[21 * m + k].vv.square();
-    }
-  }
+  V uu[2][3]; // of halves of columns
+  V vv[2][3]; // of halves of rows
+  repeat<6>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t half = k / 3;
+    const std::size_t line = k % 3;
+    const auto largest_of = [&](const SecondVectors<V>* at, std::size_t step, auto which)
+                                SIMDBEZIER_INLINE_LAMBDA {
+                                  V found = (at->*which).square();
+                                  for (std::size_t m = 1; m < 4; ++m) {
+                                    found = larger_of<V>((at[m * step].*which).square(), found);
+                                  }
+                                  return found;
+                                };
+    uu[half][line] = largest_of(nets.at + 21 * half + 3 * line, 7, &SecondVectors<V>::uu);
+    vv[half][line] = largest_of(nets.at + 21 * line + 3 * half, 1, &SecondVectors<V>::vv);
+  });
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t u = k % 2;
     const std::size_t v = k / 2;
-    nets.largest_uu[k] = largest_length<3>(uu + 3 * 3 * v + u, 2, 4);
-    nets.largest_vv[k] = largest_length<7>(vv + 7 * v + 3 * u, 4, 2);
+    nets.largest_uu[k] = square_root(larger_of<V>(uu[v][u], uu[v][u + 1]));
+    nets.largest_vv[k] = square_root(larger_of<V>(vv[u][v], vv[u][v + 1]));
   }
 }
 
