@@ -73,7 +73,7 @@ struct DiagonalSquares {
 /// The largest of some squares.
 template <typename V>
 struct LargestSquare {
-  V square = broadcast<V>(ScalarOf<V>(0));
+  V square;
 
   /// place: of the vector that it is the square of
   SIMDBEZIER_INLINE void include(V other, V /*place*/) { square = larger_of<V>(other, square); }
@@ -88,47 +88,57 @@ struct QuarterSquares {
   Largest falling[4];
 };
 
-/// Finds them; vectors that quarters have in common are looked at only once.
+/// Quarters have vectors in common, so that the nets have nine parts, [row][column]: low lines, the
+/// common one and high lines in both directions. Returns the largest of those that a quarter has.
+template <typename Largest>
+SIMDBEZIER_INLINE Largest largest_in_quarter(const Largest (&parts)[3][3], std::size_t quarter) {
+  const std::size_t u = quarter % 2 * 2;
+  const std::size_t v = quarter / 2 * 2;
+  Largest largest = parts[1][1];
+  largest.include(parts[1][u]);
+  largest.include(parts[v][1]);
+  largest.include(parts[v][u]);
+  return largest;
+}
+
+/// Finds them, part by part: each vector is looked at only once.
 template <typename Largest, typename V>
 SIMDBEZIER_INLINE QuarterSquares<Largest> largest_squares(const QuarterNets<V>& nets,
                                                           const CellSteps<V>& step) {
   using T = ScalarOf<V>;
-  QuarterSquares<Largest> found;
-  const SecondVectors<V>* at = nets.at;
-  V place = broadcast<V>(T(0));
-  const auto take_next = [&](Largest& rising, Largest& falling) SIMDBEZIER_INLINE_LAMBDA {
-    const DiagonalSquares<V> squares(step, *at);
-    rising.include(squares.rising, place);
-    falling.include(squares.falling, place);
-    place = place + broadcast<V>(T(1));
-    ++at;
-  };
-  for (std::size_t j = 0; j < 7; ++j) {
-    Largest rising[3]; // among low columns, in the common one, and among high columns
-    Largest falling[3];
-    // These stay loops: of code that is written out, g++ 12 does all products first, and moves them
-    // to memory and back.
+  constexpr std::size_t kFirst[] = {0, 3, 4, 7};
+  Largest rising[3][3];
+  Largest falling[3][3];
+  for (std::size_t v = 0; v < 3; ++v) {
+    repeat<3>([&](std::size_t u) SIMDBEZIER_INLINE_LAMBDA {
+      constexpr std::size_t kColumns[] = {3, 1, 3};
+      const std::size_t first = 7 * kFirst[v] + kFirst[u];
+      const SecondVectors<V>* at = nets.at + first;
+      V place = broadcast<V>(static_cast<T>(first));
+      Largest in_rising{};
+      Largest in_falling{};
+      for (std::size_t j = kFirst[v]; j < kFirst[v + 1]; ++j) {
+        // This stays a loop: of code that is written out, g++ 12 does all products first, and moves
+        // them to memory and back.
 #pragma GCC unroll 1
-    for (std::size_t i = 0; i < 3; ++i) {
-      take_next(rising[0], falling[0]);
-    }
-    take_next(rising[1], falling[1]);
-#pragma GCC unroll 1
-    for (std::size_t i = 0; i < 3; ++i) {
-      take_next(rising[2], falling[2]);
-    }
-    repeat<2>([&](std::size_t u) SIMDBEZIER_INLINE_LAMBDA {
-      rising[2 * u].include(rising[1]);
-      falling[2 * u].include(falling[1]);
-      if (j < 4) { // row 3 is common to both
-        found.rising[u].include(rising[2 * u]);
-        found.falling[u].include(falling[2 * u]);
+        for (std::size_t i = 0; i < kColumns[u]; ++i) {
+          const DiagonalSquares<V> squares(step, *at);
+          in_rising.include(squares.rising, place);
+          in_falling.include(squares.falling, place);
+          place = place + broadcast<V>(T(1));
+          ++at;
+        }
+        at += 7 - kColumns[u];
+        place = place + broadcast<V>(static_cast<T>(7 - kColumns[u]));
       }
-      if (j > 2) {
-        found.rising[2 + u].include(rising[2 * u]);
-        found.falling[2 + u].include(falling[2 * u]);
-      }
+      rising[v][u] = in_rising;
+      falling[v][u] = in_falling;
     });
+  }
+  QuarterSquares<Largest> found;
+  for (std::size_t k = 0; k < 4; ++k) {
+    found.rising[k] = largest_in_quarter(rising, k);
+    found.falling[k] = largest_in_quarter(falling, k);
   }
   return found;
 }
@@ -190,7 +200,7 @@ SIMDBEZIER_INLINE V bound_of_even(const ZoneTerms<V>& terms) {
 
 /// Returns the bound of every lane's cells. diagonals gets a bit for each zone (PatchRates).
 template <typename V>
-SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V>& cells,
+SIMDBEZIER_KERNEL V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V>& cells,
                                    const SecondTerms<V>& doubt, V& diagonals) {
   using T = ScalarOf<V>;
   const V zero = broadcast<V>(T(0));
@@ -205,8 +215,11 @@ SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V
   repeat<9>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
     const std::size_t u = k % 3;
     const std::size_t v = k / 3;
-    const ZoneBound<V> zone(terms, u, v);
     const MaskOf<V> occurs = (u == 2 ? odd[0] : several[0]) & (v == 2 ? odd[1] : several[1]);
+    if (!any_of<V>(occurs)) {
+      return;
+    }
+    const ZoneBound<V> zone(terms, u, v);
     worst = larger_of<V>(select_where<V>(occurs, zone.bound, zero), worst);
     const V bit = broadcast<V>(static_cast<T>(1U << k));
     diagonals = diagonals + select_where<V>(occurs & zone.falls, bit, zero);

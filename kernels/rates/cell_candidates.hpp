@@ -57,14 +57,13 @@ public:
       nv_[k] = smaller_of<V>(larger_of<V>(centre.nv + by, one), most);
     }
     // The screen judges cells beyond `most` as well. A candidate that has `most` instead of them is
-    // one that a smaller step leads to, where it is judged itself, so it may be open or not.
+    // one that a smaller step leads to, where it is judged itself, so it may be open or not, as the
+    // one of more cells that it is judged for.
     V open[4][4];
     screen_all(screen, SegmentWindow<V>(smaller_of<V>(centre.nu, most)),
                SegmentWindow<V>(smaller_of<V>(centre.nv, most)), open);
     for (std::size_t k = 0; k < kCount; ++k) {
-      const LaneCells<V> cells = at(k);
-      const V passes = open[kSteps[k][0]][kSteps[k][1]];
-      product_[k] = select_where<V>(passes > broadcast<V>(T(0)), cells.nu * cells.nv, closed());
+      product_[k] = open[kSteps[k][0]][kSteps[k][1]];
     }
   }
 
@@ -104,18 +103,18 @@ private:
     return {nu_[kSteps[k][0]], nv_[kSteps[k][1]]};
   }
 
-  /// Finds which cells may hold, [step in u][step in v]: 1 where they may, else 0.
+  /// Finds how many cells the candidates that may hold have, [step in u][step in v].
   static SIMDBEZIER_INLINE void screen_all(const CellScreen<V>& screen, const SegmentWindow<V>& u,
                                            const SegmentWindow<V>& v, V (&open)[4][4]) {
-    using T = ScalarOf<V>;
     V sorted[4][4]; // [2 * pair in u + odd][likewise in v]
     for (std::size_t pair_u = 0; pair_u < 2; ++pair_u) {
       for (std::size_t pair_v = 0; pair_v < 2; ++pair_v) {
         const auto look = [&](std::size_t odd_u, std::size_t odd_v) SIMDBEZIER_INLINE_LAMBDA {
           const MaskOf<V> may_hold = screen.may_hold(u.inverse[pair_u][odd_u],
                                                      v.step[pair_v][odd_v], odd_u == 1, odd_v == 1);
+          const V cells = u.number[pair_u][odd_u] * v.number[pair_v][odd_v];
           sorted[2 * pair_u + odd_u][2 * pair_v + odd_v] =
-              select_where<V>(may_hold, broadcast<V>(T(1)), broadcast<V>(T(0)));
+              select_where<V>(may_hold, cells, closed());
         };
         look(0, 0);
         look(0, 1);

@@ -10,8 +10,8 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// The largest of some squares, and the place of the vector that it is the square of.
 template <typename V>
 struct LeadingSquare {
-  V square = broadcast<V>(ScalarOf<V>(0));
-  V place = broadcast<V>(ScalarOf<V>(0));
+  V square;
+  V place;
 
   SIMDBEZIER_INLINE void include(V other, V at) {
     place = select_where<V>(other > square, at, place);
@@ -20,32 +20,41 @@ struct LeadingSquare {
   SIMDBEZIER_INLINE void include(const LeadingSquare& other) { include(other.square, other.place); }
 };
 
-/// Copies the vectors in every lane's place: value by value, since keeping the vectors of the
-/// largest squares in registers would take nine selections for every vector that is looked at.
+/// Returns the vectors in every lane's place. Keeping those of the largest squares in registers
+/// would take nine selections for every vector that is looked at.
 template <typename V>
-SIMDBEZIER_INLINE void take_vectors(const QuarterNets<V>& nets, V place, SecondVectors<V>& to) {
+SIMDBEZIER_INLINE SecondVectors<V> vectors_at(const QuarterNets<V>& nets, V place) {
   using T = ScalarOf<V>;
-  constexpr std::size_t kValues = sizeof(SecondVectors<V>) / sizeof(V);
-  alignas(64) T places[kLanes<V>];
-  store_vector<V>(places, place);
-  for (std::size_t p = 0; p < kLanes<V>; ++p) {
-    const T* const from = own_address(
-        reinterpret_cast<const T*>(nets.at + static_cast<std::ptrdiff_t>(places[p])) + p);
-    T* const lane = own_address(reinterpret_cast<T*>(&to) + p);
-    for (std::size_t k = 0; k < kValues; ++k) {
-      __builtin_memcpy(lane + k * kLanes<V>, from + k * kLanes<V>, sizeof(T));
-    }
-  }
+  constexpr std::size_t kValues = sizeof(SecondVectors<V>) / sizeof(T);
+  alignas(64) T first[kLanes<V>];
+  store_vector<V>(first, place * broadcast<V>(T(kValues)));
+  const T* lanes[kLanes<V>];
+  repeat<kLanes<V>>([&](std::size_t p) SIMDBEZIER_INLINE_LAMBDA {
+    lanes[p] = reinterpret_cast<const T*>(nets.at) + static_cast<std::ptrdiff_t>(first[p]) + p;
+  });
+  const auto vector = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    const auto component = [&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+      return from_lanes<V>([&](std::size_t p) SIMDBEZIER_INLINE_LAMBDA {
+        return lanes[p][(3 * k + c) * kLanes<V>];
+      });
+    };
+    return SpaceVector<V>{component(0), component(1), component(2)};
+  };
+  return {vector(0), vector(1), vector(2)};
 }
 
 /// Whether triangle_bound() may be at most an eighth of `limit`, by products instead of a quotient.
 template <typename V>
 SIMDBEZIER_INLINE MaskOf<V> is_triangle_within(V a, V c, V d, V limit) {
-  const SortedTerms<V> terms(a, c, d);
-  const V quarter = limit * broadcast<V>(ScalarOf<V>(0.25));
-  const MaskOf<V> circle = terms.least * terms.middle * (limit - terms.largest) >=
-                           quarter * (terms.excess * terms.excess);
-  return (terms.largest <= limit) & (circle | terms.obtuse());
+  using T = ScalarOf<V>;
+  const V low = smaller_of<V>(a, c);
+  const V high = larger_of<V>(a, c);
+  const V other = smaller_of<V>(high, d);
+  const V largest = larger_of<V>(high, d);
+  // What obtuse triangles have too much counts as nothing: then the largest term decides.
+  const V excess = smaller_of<V>((largest - other) - low, broadcast<V>(T(0)));
+  const V quarter = limit * broadcast<V>(T(0.25));
+  return quarter * (excess * excess) <= low * other * (limit - largest);
 }
 
 /// The square of a vector along a diagonal of cells with steps 1 and hv: a polynomial of hv.
@@ -94,15 +103,9 @@ public:
     // It is above 8 t by more than triangle_bound() may err by. No bound of scaled patches comes
     // near 1e3, and products with a larger limit might overflow.
     limit_ = smaller_of<V>(t * broadcast<V>(T(8) * (T(1) + T(1e-4))), broadcast<V>(T(1e4)));
-    SecondVectors<V> rising[4]; // all before the first is used: single lanes take long to arrive
-    SecondVectors<V> falling[4];
     for (std::size_t k = 0; k < 4; ++k) {
-      take_vectors(nets, leading.rising[k].place, rising[k]);
-      take_vectors(nets, leading.falling[k].place, falling[k]);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      rising_[k] = SquareForm<V>(rising[k], true);
-      falling_[k] = SquareForm<V>(falling[k], false);
+      rising_[k] = SquareForm<V>(vectors_at(nets, leading.rising[k].place), true);
+      falling_[k] = SquareForm<V>(vectors_at(nets, leading.falling[k].place), false);
       uu_[k] = nets.largest_uu[k] + doubt.uu;
       vv_[k] = nets.largest_vv[k] + doubt.vv;
     }
