@@ -73,7 +73,7 @@ struct CertifiedCells {
 };
 
 /// Where Filip's bound takes more cells than these, one cell hardly ever holds.
-constexpr int kFewCells = 4;
+constexpr int kFewCells = 2;
 
 /// Returns the fewest cells near those that the bound of an even pair of rates, in proportion to
 /// the tolerance, asks for. Where none of them holds, it is what Filip's bound gives, whose own
@@ -166,54 +166,28 @@ SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& t
   return result;
 }
 
-/// Whether sums of such numbers stay within range; patches of other sizes, and those with values
-/// that are not finite, are left undecided.
-template <typename T>
-SIMDBEZIER_INLINE bool is_usual_size(T size) {
-  return size > kSafelySmall<T> && size < kSafelyLarge<T>;
+/// Where sums of numbers of such a size stay within range; patches of other sizes, and those with
+/// values that are not finite, are left undecided.
+template <typename V>
+SIMDBEZIER_INLINE MaskOf<V> is_usual_size(V size) {
+  using T = ScalarOf<V>;
+  return (size > broadcast<V>(kSafelySmall<T>)) & (size < broadcast<V>(kSafelyLarge<T>));
 }
 
-/// Returns what is left of a patch's tolerance for its triangles.
 template <typename T>
-SIMDBEZIER_INLINE double tolerance_of(const detail::RateTask<T>& task, std::size_t patch) {
+SIMDBEZIER_INLINE double error_of(const detail::RateTask<T>& task, std::size_t patch) {
+  return task.errors == nullptr ? 0 : task.errors[patch];
+}
+
+/// Returns what is left of a patch's tolerance for its triangles, over its size. Doubts keep every
+/// bound above the least value, which stands for tolerances that are used up.
+template <typename T>
+SIMDBEZIER_INLINE T tolerance_of(const detail::RateTask<T>& task, std::size_t patch, T size) {
   const double wanted = task.tolerances == nullptr ? task.tolerance : task.tolerances[patch];
-  return wanted - (task.errors == nullptr ? 0 : task.errors[patch]);
+  const double left = wanted - error_of(task, patch);
+  const double scaled = left / static_cast<double>(size) * (1 - 0x1p-20);
+  return scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
 }
-
-/// What is known of every lane.
-template <typename T>
-struct RateLanes {
-  using V = vec<T>;
-  alignas(64) T size[kLanes<V>];
-  alignas(64) T nu[kLanes<V>];
-  alignas(64) T nv[kLanes<V>];
-  alignas(64) T bound[kLanes<V>];
-  alignas(64) T diagonals[kLanes<V>];
-  alignas(64) T coarse[kLanes<V>]; ///< 1 where others may have a far smaller bound
-
-  SIMDBEZIER_INLINE void store(const CertifiedCells<V>& of, MaskOf<V> is_coarse) {
-    store_vector<V>(nu, of.cells.nu);
-    store_vector<V>(nv, of.cells.nv);
-    store_vector<V>(bound, of.bound);
-    store_vector<V>(diagonals, of.diagonals);
-    store_vector<V>(coarse, select_where<V>(is_coarse, broadcast<V>(T(1)), broadcast<V>(T(0))));
-  }
-  [[nodiscard]] SIMDBEZIER_INLINE bool is_decided(std::size_t p) const {
-    return is_usual_size(size[p]) && coarse[p] == 0;
-  }
-  /// Writes the certificates of patches [first, first + count).
-  SIMDBEZIER_INLINE void put_bounds(const detail::RateTask<T>& task, std::size_t first,
-                                    std::size_t count) const {
-    for (std::size_t p = 0; p < count; ++p) {
-      const bool known = is_decided(p);
-      const double error = task.errors == nullptr ? 0 : task.errors[first + p];
-      task.diagonals[first + p] =
-          known ? static_cast<std::uint16_t>(diagonals[p]) : std::uint16_t{0};
-      task.deviations[first + p] =
-          known ? static_cast<double>(bound[p]) * static_cast<double>(size[p]) + error : -1;
-    }
-  }
-};
 
 /// Chooses the cells of a group, or takes those that are given, and writes their certificates.
 template <typename T>
@@ -221,36 +195,51 @@ SIMDBEZIER_INLINE void rate_group(const detail::RateTask<T>& task, std::size_t f
                                   std::size_t count, const RateScratch<vec<T>>& scratch,
                                   const RateGroup<vec<T>>& group) {
   using V = vec<T>;
-  RateLanes<T> lanes;
-  store_vector<V>(lanes.size, group.size);
+  alignas(64) T size[kLanes<V>];
   alignas(64) T t[kLanes<V>];
+  alignas(64) T nu[kLanes<V>];
+  alignas(64) T nv[kLanes<V>];
+  alignas(64) T bound[kLanes<V>];
+  alignas(64) T diagonals[kLanes<V>];
+  store_vector<V>(size, group.size);
   for (std::size_t p = 0; p < kLanes<V>; ++p) {
     const std::size_t patch = first + (p < count ? p : count - 1);
     if (task.choose) {
-      const double left = tolerance_of(task, patch);
-      const double scaled = left / static_cast<double>(lanes.size[p]) * (1 - 0x1p-20);
-      t[p] = scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
+      t[p] = tolerance_of(task, patch, size[p]);
     } else {
-      lanes.nu[p] = static_cast<T>(task.nu[patch]);
-      lanes.nv[p] = static_cast<T>(task.nv[patch]);
+      nu[p] = static_cast<T>(task.nu[patch]);
+      nv[p] = static_cast<T>(task.nv[patch]);
     }
   }
-  const T most = static_cast<T>(task.most);
+  MaskOf<V> decided = is_usual_size<V>(group.size);
   CertifiedCells<V> found;
   if (task.choose) {
-    found = choose_cells<V>(scratch, group, load_vector<V>(t), broadcast<V>(most));
+    const V limit = load_vector<V>(t);
+    const V most = broadcast<V>(static_cast<T>(task.most));
+    found = choose_cells<V>(scratch, group, limit, most);
+    decided =
+        decided & (found.bound <= limit) & (found.cells.nu <= most) & (found.cells.nv <= most);
   } else {
-    found.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
+    found.cells = {load_vector<V>(nu), load_vector<V>(nv)};
     found.bound = bound_of_cells<V>(scratch.nets, found.cells, group.doubt, found.diagonals);
   }
-  lanes.store(found, found.is_coarse(scratch, group, task.fewest_looked));
-  for (std::size_t p = 0; task.choose && p < count; ++p) {
-    const bool holds = lanes.is_decided(p) && tolerance_of(task, first + p) > 0 &&
-                       lanes.bound[p] <= t[p] && lanes.nu[p] <= most && lanes.nv[p] <= most;
-    task.nu[first + p] = holds ? static_cast<std::uint32_t>(lanes.nu[p]) : detail::kUndecided;
-    task.nv[first + p] = holds ? static_cast<std::uint32_t>(lanes.nv[p]) : detail::kUndecided;
+  decided = decided & !found.is_coarse(scratch, group, task.fewest_looked);
+  store_vector<V>(nu, found.cells.nu);
+  store_vector<V>(nv, found.cells.nv);
+  store_vector<V>(bound, select_where<V>(decided, found.bound, broadcast<V>(T(-1))));
+  store_vector<V>(diagonals, found.diagonals);
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::size_t patch = first + p;
+    const bool known = bound[p] >= 0;
+    if (task.choose) {
+      task.nu[patch] = known ? static_cast<std::uint32_t>(nu[p]) : detail::kUndecided;
+      task.nv[patch] = known ? static_cast<std::uint32_t>(nv[p]) : detail::kUndecided;
+    }
+    task.diagonals[patch] = static_cast<std::uint16_t>(diagonals[p]);
+    task.deviations[patch] =
+        known ? static_cast<double>(bound[p]) * static_cast<double>(size[p]) + error_of(task, patch)
+              : -1;
   }
-  lanes.put_bounds(task, first, count);
 }
 
 /// Asks for packed nets before their turn: a group takes long enough for them to arrive, while
