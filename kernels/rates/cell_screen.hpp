@@ -3,7 +3,6 @@
 #pragma once
 
 #include "kernels/rates/cell_bounds.hpp"
-#include "kernels/simd/operands.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
