@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -265,6 +266,30 @@ TEST(RateKernels, powers_of_two_scale_bounds) {
           EXPECT_EQ(scaled[call].deviation[patch], scale * original[call].deviation[patch]);
         }
       }
+    }
+  }
+}
+
+/// Which direction is called u makes no difference but roundings.
+TEST(RateKernels, turned_patches_have_the_same_bound) {
+  const Model<double> model({3, 3, Weights::none});
+  const auto certify = [](const ControlNets<double>& nets, std::uint32_t nu, std::uint32_t nv) {
+    Topology topology;
+    EXPECT_EQ(find_topology(nets, topology), Status::ok);
+    Rated rated;
+    rated.nu.assign(kPatches, nu);
+    rated.nv.assign(kPatches, nv);
+    const std::span<const ControlNets<double>> sets(&nets, 1);
+    EXPECT_EQ(certify_rates(sets, topology, {}, rated.out(), {}).status, Status::ok);
+    return rated.deviation;
+  };
+  ControlNets<double> turned = model.nets();
+  std::swap(turned.point_stride, turned.row_stride);
+  for (const std::uint32_t nu : {2U, 4U, 5U}) {
+    const std::vector<double> first = certify(model.nets(), nu, 2);
+    const std::vector<double> second = certify(turned, 2, nu);
+    for (std::size_t patch = 0; patch < kPatches; ++patch) {
+      EXPECT_NEAR(second[patch] / first[patch], 1, 1e-11) << nu << ", patch " << patch;
     }
   }
 }
