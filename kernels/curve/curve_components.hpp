@@ -28,7 +28,7 @@ struct ComponentPlanes {
     return position != nullptr || d1 != nullptr || d2 != nullptr;
   }
   /// Stores what is wanted of a register of samples.
-  template <std::size_t kDepth, bool kHalves, bool kMixed, typename V>
+  template <std::size_t kDepth, bool kMixed, typename V>
   SIMDBEZIER_INLINE void store(const CurveRange<V>& range, const CurveShape& shape,
                                const CurveChannel<V, kMixed>& channel, const Series<V>& s) const {
     if (kDepth == 0 || position != nullptr) {
@@ -36,12 +36,12 @@ struct ComponentPlanes {
     }
     if constexpr (kDepth > 0) {
       if (d1 != nullptr) {
-        range.store(d1, scaled_first<kHalves>(s.first));
+        range.store(d1, scaled_first<kMixed>(s.first));
       }
     }
     if constexpr (kDepth > 1) {
       if (d2 != nullptr) {
-        range.store(d2, scaled_second<kHalves>(s.second));
+        range.store(d2, scaled_second<kMixed>(s.second));
       }
     }
   }
@@ -68,8 +68,7 @@ SIMDBEZIER_PART void sweep_side_by_side(const CurveTask<T>& task, const CurveSha
     }
     const CurveChannel<V, kMixed> channel(shape, values, points);
     values += step;
-    to.template store<kDepth, kHalves>(range, shape, channel,
-                                       channel.template series<kDepth>(order));
+    to.template store<kDepth>(range, shape, channel, channel.template series<kDepth>(order));
   });
 }
 
@@ -94,20 +93,19 @@ SIMDBEZIER_PART void sweep_one_by_one(const CurveTask<T>& task, const CurveShape
     repeat<kKnownOrder>(
         [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { coefficients[k] = broadcast<V>(values[k]); });
     for_registers<V>(swept, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
-      const CurvePoints<V, false> points(load_vector<V>(task.x + first));
+      const CurvePoints<V, false> points(load_vector<V>(task.x + first), shape);
       const CurveRange<V> range{curve, curve * task.n + first, kLanes<V>, kLanes<V>,
                                 task.streaming};
       const Series<V> s = row_series<kDepth>(
           Order<kKnownOrder>(kKnownOrder), points.local,
           [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return coefficients[k]; });
-      to.template store<kDepth, false>(range, shape, CurveChannel<V, false>(shape, values, points),
-                                       s);
+      to.template store<kDepth>(range, shape, CurveChannel<V, false>(shape, values, points), s);
     });
   }
 }
 
 /// Sweeps one component of some curves: short ones side by side, long ones one after the other.
-template <typename V, std::size_t kKnownOrder, bool kHalves, std::size_t kDepth, typename T>
+template <typename V, std::size_t kKnownOrder, std::size_t kDepth, typename T>
 SIMDBEZIER_PART void sweep_slot(const CurveTask<T>& task, const CurveShape& shape, CurveBlock block,
                                 std::size_t swept, std::size_t slot) {
   if constexpr (!kCompact && kKnownOrder > 0) {
@@ -116,8 +114,8 @@ SIMDBEZIER_PART void sweep_slot(const CurveTask<T>& task, const CurveShape& shap
     }
   }
   for_registers<V>(swept, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
-    const CurvePoints<V, kHalves> points(load_vector<V>(task.x + first));
-    by_cells<kDepth == 0>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+    const CurvePoints<V, kKnownOrder == 0> points(load_vector<V>(task.x + first), shape);
+    by_cells<kDepth>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
       sweep_side_by_side<V, kKnownOrder, kDepth, kMixed>(task, shape, block, first, points, slot);
     });
   });
@@ -137,7 +135,7 @@ SIMDBEZIER_PART void store_ends(const CurveTask<T>& task, const CurveShape& shap
 }
 
 /// Sweeps all curves, a few of them at a time.
-template <std::size_t kKnownOrder, bool kHalves, std::size_t kDepth, typename T>
+template <std::size_t kKnownOrder, std::size_t kDepth, typename T>
 SIMDBEZIER_KERNEL void sweep_components(const CurveTask<T>& shared_task) {
   using V = vec<T>;
   // Copies, because stores through vector types might change anything that others can see.
@@ -151,7 +149,7 @@ SIMDBEZIER_KERNEL void sweep_components(const CurveTask<T>& shared_task) {
       if (!ComponentPlanes<T>(task, slot).wanted()) {
         continue;
       }
-      sweep_slot<V, kKnownOrder, kHalves, kDepth>(task, shape, block, swept, slot);
+      sweep_slot<V, kKnownOrder, kDepth>(task, shape, block, swept, slot);
       if (lone_end) {
         store_ends(task, shape, block, slot);
       }

@@ -20,28 +20,27 @@ SIMDBEZIER_INLINE void assume_order(CurveShape& shape) {
 }
 
 /// A register of parameters: in which cell they are, where in there, and which are its ends.
+/// kHalves: curves may have two cells.
 template <typename V, bool kHalves>
 struct CurvePoints {
   using T = ScalarOf<V>;
   V x;     ///< half-centred, of the whole curve
   V local; ///< and of the cell
   MaskOf<V> low;
+  bool halves; ///< there are two cells
   bool any_low;
   bool mixed; ///< some are in either cell
   EndSelector<V> ends;
 
-  explicit SIMDBEZIER_INLINE CurvePoints(V half_centred)
-      : x(half_centred), local(in_cell(half_centred)), low(half_centred < broadcast<V>(T(0))),
-        any_low(!kHalves || any_of<V>(low)), mixed(kHalves && any_low && !all_of<V>(low)),
+  SIMDBEZIER_INLINE CurvePoints(V half_centred, const CurveShape& shape)
+      : x(half_centred), local(in_cell(half_centred, shape)),
+        low(half_centred < broadcast<V>(T(0))), halves(kHalves && shape.cells() == 2),
+        any_low(!halves || any_of<V>(low)), mixed(halves && any_low && !all_of<V>(low)),
         ends(local == broadcast<V>(T(-0.5)), local == broadcast<V>(T(0.5))) {}
 
 private:
-  static SIMDBEZIER_INLINE V in_cell(V x) {
-    if constexpr (kHalves) {
-      return cell_parameter(x);
-    } else {
-      return x;
-    }
+  static SIMDBEZIER_INLINE V in_cell(V x, const CurveShape& shape) {
+    return kHalves && shape.cells() == 2 ? cell_parameter(x) : x;
   }
 };
 
@@ -107,30 +106,27 @@ struct CurveJet {
   V d2[3];
 };
 
-/// Calls body.template operator()<kMixed>(). kApart: lanes that are all in one half have code of
-/// their own, which is half the loads; without it they run as mixed ones do.
-template <bool kApart, typename V, bool kHalves, typename Body>
+/// Calls body.template operator()<kMixed>(). Positions of lanes that are all in one half take half
+/// the loads; with derivatives (kDepth > 0), all curves of two cells count as mixed, so that kMixed
+/// says as well how derivatives are scaled.
+template <std::size_t kDepth, typename V, bool kHalves, typename Body>
 SIMDBEZIER_INLINE void by_cells(const CurvePoints<V, kHalves>& points, Body body) {
-  if constexpr (kHalves && !kApart) {
-    body.template operator()<true>();
-  } else {
-    if constexpr (kHalves) {
-      if (points.mixed) {
-        return body.template operator()<true>();
-      }
+  if constexpr (kHalves) {
+    if (kDepth == 0 ? points.mixed : points.halves) {
+      return body.template operator()<true>();
     }
-    body.template operator()<false>();
   }
+  body.template operator()<false>();
 }
 
 /// These two turn derivatives by the parameter of a cell into those by t. Nothing rounds here.
-template <bool kHalves, typename V>
+template <bool kMixed, typename V>
 SIMDBEZIER_INLINE V scaled_first(V d1) {
-  return kHalves ? d1 + d1 : d1;
+  return kMixed ? d1 + d1 : d1;
 }
-template <bool kHalves, typename V>
+template <bool kMixed, typename V>
 SIMDBEZIER_INLINE V scaled_second(V d2) {
-  return scaled_first<kHalves>(scaled_first<kHalves>(d2));
+  return scaled_first<kMixed>(scaled_first<kMixed>(d2));
 }
 
 /// Returns |a x b|^2.

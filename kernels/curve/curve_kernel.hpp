@@ -51,7 +51,7 @@ SIMDBEZIER_PART void evaluate_rows(const CurveTask<T>& task) {
   task.triples != nullptr ? evaluate_rows<true>(task) : evaluate_rows<false>(task);
 }
 
-template <std::size_t kKnownOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
+template <std::size_t kKnownOrder, bool kRational, std::size_t kDepth, typename T>
 SIMDBEZIER_KERNEL void sweep_samples(const CurveTask<T>& shared_task) {
   using V = vec<T>;
   const CurveTask<T> task = shared_task;
@@ -60,23 +60,14 @@ SIMDBEZIER_KERNEL void sweep_samples(const CurveTask<T>& shared_task) {
   shape.rational = kRational;
   for_curve_blocks(task, values_per_sample(task), [&](CurveBlock block) SIMDBEZIER_INLINE_LAMBDA {
     for_registers<V>(task.n, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
-      const CurvePoints<V, kHalves> points(load_vector<V>(task.x + first));
-      by_cells<kDepth == 0>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+      const CurvePoints<V, kKnownOrder == 0> points(load_vector<V>(task.x + first), shape);
+      by_cells<kDepth>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
         for_curves<V>(task, block, first, [&](const CurveRange<V>& range) SIMDBEZIER_INLINE_LAMBDA {
           finish_samples<kKnownOrder, kRational, kDepth, kMixed>(task, shape, points, range);
         });
       });
     });
   });
-}
-
-template <bool kRational, std::size_t kDepth, typename T>
-SIMDBEZIER_PART void sweep_any_degree(const CurveTask<T>& task) {
-  if (task.shape->cells() == 1) {
-    sweep_samples<0, false, kRational, kDepth>(task);
-  } else {
-    sweep_samples<0, true, kRational, kDepth>(task);
-  }
 }
 
 /// Where components meet, few degrees are compiled on their own: lines, circles and cubics, and
@@ -87,22 +78,21 @@ SIMDBEZIER_PART void sweep_joint(const CurveTask<T>& task) {
   const std::size_t depth = depth_of(task);
   if constexpr (kRational && !kCompact) {
     if (depth == 0 && task.shape->degree <= 3) {
-      return with_one_of<2, 3, 4>(task.shape->order(), [&]<std::size_t kOrder>() {
-        sweep_samples<kOrder, false, true, 0>(task);
-      });
+      return with_one_of<2, 3, 4>(
+          task.shape->order(), [&]<std::size_t kOrder>() { sweep_samples<kOrder, true, 0>(task); });
     }
   }
   if constexpr (!kRational && !kCompact) {
     if (depth == 1 && task.shape->degree == 3) {
-      return sweep_samples<4, false, false, 1>(task);
+      return sweep_samples<4, false, 1>(task);
     }
   }
   if constexpr (kRational || kCompact) { // others that want positions alone sweep components
     if (depth == 0) {
-      return sweep_any_degree<kRational, 0>(task);
+      return sweep_samples<0, kRational, 0>(task);
     }
   }
-  sweep_any_degree<kRational, 2>(task);
+  sweep_samples<0, kRational, 2>(task);
 }
 
 /// Components that do not need each other. Positions have code for every degree of one cell, which
@@ -112,20 +102,12 @@ SIMDBEZIER_PART void sweep_apart(const CurveTask<T>& task) {
   const int degree = task.shape->degree;
   if constexpr (kDepth == 0) {
     if (degree > 5) {
-      return sweep_components<0, true, 0>(task);
+      return sweep_components<0, 0>(task);
     }
-    return with_one_of<2, 3, 4, 5, 6>(task.shape->order(), [&]<std::size_t kOrder>() {
-      sweep_components<kOrder, false, 0>(task);
-    });
+    return with_one_of<2, 3, 4, 5, 6>(
+        task.shape->order(), [&]<std::size_t kOrder>() { sweep_components<kOrder, 0>(task); });
   }
-  if (degree == 3) {
-    return sweep_components<4, false, kDepth>(task);
-  }
-  if (task.shape->cells() == 1) {
-    sweep_components<0, false, kDepth>(task);
-  } else {
-    sweep_components<0, true, kDepth>(task);
-  }
+  degree == 3 ? sweep_components<4, kDepth>(task) : sweep_components<0, kDepth>(task);
 }
 
 template <typename T>

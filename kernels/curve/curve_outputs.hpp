@@ -163,8 +163,8 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
     }
     range.store_if_wanted(task.out[output_index(CurveOutput::position)].component[slot],
                           channel.finished(shape, s.value));
-    jet.d1[slot] = kDepth > 0 ? scaled_first<kHalves>(s.first) : zero;
-    jet.d2[slot] = kDepth > 1 ? scaled_second<kHalves>(s.second) : zero;
+    jet.d1[slot] = kDepth > 0 ? scaled_first<kMixed>(s.first) : zero;
+    jet.d2[slot] = kDepth > 1 ? scaled_second<kMixed>(s.second) : zero;
     if constexpr (kDepth > 0) {
       range.store_if_wanted(task.out[output_index(CurveOutput::d1)].component[slot], jet.d1[slot]);
     }

@@ -10,7 +10,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::ScatteredCurveTask;
 
 /// Evaluates samples [first, first + own) of a task, all of one curve.
-template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
+template <bool kRational, std::size_t kDepth, typename T>
 SIMDBEZIER_PART void evaluate_samples(const ScatteredCurveTask<T>& task, const CurveShape& shape,
                                       std::size_t first, std::size_t own) {
   using V = vec<T>;
@@ -26,8 +26,8 @@ SIMDBEZIER_PART void evaluate_samples(const ScatteredCurveTask<T>& task, const C
   }
   V x = (t - broadcast<V>(task.shift)) * broadcast<V>(task.scale);
   x = x + (x - x); // infinite becomes nan, all else stays
-  const CurvePoints<V, kHalves> points(x);
-  by_cells<kDepth == 0>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+  const CurvePoints<V, true> points(x, shape);
+  by_cells<kDepth>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
     finish_samples<0, kRational, kDepth, kMixed>(
         task, shape, points, CurveRange<V>{task.curve[first], first, own, own, false});
   });
@@ -44,7 +44,7 @@ SIMDBEZIER_PART void prefetch_curve(const ScatteredCurveTask<T>& task, const Cur
   }
 }
 
-template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
+template <bool kRational, std::size_t kDepth, typename T>
 SIMDBEZIER_KERNEL void scatter_samples(const ScatteredCurveTask<T>& shared_task) {
   const ScatteredCurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
@@ -59,24 +59,17 @@ SIMDBEZIER_KERNEL void scatter_samples(const ScatteredCurveTask<T>& shared_task)
         prefetch_curve(task, shape, k + i);
       }
     }
-    evaluate_samples<kHalves, kRational, kDepth>(task, shape, k, run);
+    evaluate_samples<kRational, kDepth>(task, shape, k, run);
     k += run;
   }
 }
 
 template <typename T>
 SIMDBEZIER_KERNEL void scattered_curve_kernel(ScatteredCurveTask<T>& task) {
-  const auto run = [&]<bool kHalves, bool kRational>() SIMDBEZIER_INLINE_LAMBDA {
-    depth_of(task) == 0 ? scatter_samples<kHalves, kRational, 0>(task)
-                        : scatter_samples<kHalves, kRational, 2>(task);
+  const auto run = [&]<bool kRational>() SIMDBEZIER_INLINE_LAMBDA {
+    depth_of(task) == 0 ? scatter_samples<kRational, 0>(task) : scatter_samples<kRational, 2>(task);
   };
-  if (task.shape->cells() == 2) {
-    task.shape->rational ? run.template operator()<true, true>()
-                         : run.template operator()<true, false>();
-  } else {
-    task.shape->rational ? run.template operator()<false, true>()
-                         : run.template operator()<false, false>();
-  }
+  task.shape->rational ? run.template operator()<true>() : run.template operator()<false>();
   task.executed = Isa::SIMDBEZIER_ISA;
 }
 

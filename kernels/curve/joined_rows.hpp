@@ -157,7 +157,7 @@ public:
 
 private:
   /// Writes samples up to `end` with plain stores. Nothing is read behind the last curve.
-  void write(const JoinedSamples<T>& samples, std::size_t end) {
+  SIMDBEZIER_KERNEL void write(const JoinedSamples<T>& samples, std::size_t end) {
     while (place_ < end) {
       const std::size_t from = std::min(first_, n_ - kLanes<V>);
       const std::size_t skipped = first_ - from;

@@ -19,7 +19,7 @@ template <std::size_t kKnownOrder, typename T>
 SIMDBEZIER_INLINE void sweep_triples(const CurveTask<T>& task, const CurveShape& shape,
                                      CurveBlock block, std::size_t first, T* to) {
   using V = vec<T>;
-  const CurvePoints<V, false> points(load_vector<V>(task.x + first));
+  const CurvePoints<V, false> points(load_vector<V>(task.x + first), shape);
   const std::size_t stride = shape.values();
   const std::size_t channel_values = shape.channel_values();
   const T* values = task.values + block.begin * stride + task.first_component * channel_values;
@@ -79,15 +79,14 @@ SIMDBEZIER_KERNEL void write_triples(const CurveTask<T>& shared_task) {
   const std::size_t last = std::min((kAll - 1) / task.n, task.curve_count);
   const std::size_t end = task.curve_count - last;
   const std::size_t batch = std::max<std::size_t>(kBatch / row, 1);
-  for (std::size_t first = 0; first < end; first += batch) {
-    const CurveBlock block{first, std::min(first + batch, end)};
-    fill_triples<kKnownOrder>(task, shape, block, task.triples + first * row);
+  alignas(64) T memory[6 * kAll];
+  for (std::size_t first = 0; first < task.curve_count;) {
+    const CurveBlock block{first, first < end ? std::min(first + batch, end) : task.curve_count};
+    fill_triples<kKnownOrder>(task, shape, block,
+                              first < end ? task.triples + first * row : memory);
+    first = block.end;
   }
-  if (last > 0) {
-    alignas(64) T memory[6 * kAll];
-    fill_triples<kKnownOrder>(task, shape, {end, task.curve_count}, memory);
-    __builtin_memcpy(task.triples + end * row, memory, last * row * sizeof(T));
-  }
+  __builtin_memcpy(task.triples + end * row, memory, last * row * sizeof(T));
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -48,7 +48,7 @@ public:
   }
 
 private:
-  SIMDBEZIER_INLINE void put_value(std::size_t cell, std::size_t channel, std::size_t k,
+  SIMDBEZIER_KERNEL void put_value(std::size_t cell, std::size_t channel, std::size_t k,
                                    Wide value) const {
     store_value(value,
                 task_.values + first_ * curve_values_ + cell * shape_.cell_values() +
