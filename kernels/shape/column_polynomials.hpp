@@ -21,8 +21,8 @@ struct ShapePlan {
   using Slots = Channels<kRational, kComponents>;
   using OrderU = Order<kU>;
   using OrderV = Order<kV>;
-  /// This is the plan for all degrees, for functions that do not depend on them.
-  using AnyDegree = ShapePlan<kHighest, kRational, kComponents, 0, 0>;
+  /// This is the plan for origins, which depend neither on degrees nor on how far derivatives go.
+  using ForOrigins = ShapePlan<1, kRational, kComponents == 1 ? 1 : 0, 0, 0>;
   static_assert(kOneCell || !kKnown);
 
   /// Returns the shape of a set with constants for what the plan says.

@@ -39,27 +39,6 @@ public:
     }
   }
 
-  /// build() of one sample (V = T) off the edges u = const of its cell, in a set without origins:
-  /// lanes are powers of Y. Reads up to a register behind the last coefficient, where the edges
-  /// stand.
-  SIMDBEZIER_PART void build_across(const Cell<T>& cell) {
-    using Lanes = vec<T>;
-    origins_ = nullptr;
-    const Lanes x = broadcast<Lanes>(columns_.local.x);
-    const auto load = [](const T* c, std::size_t /*i*/)
-                          SIMDBEZIER_INLINE_LAMBDA { return load_vector<Lanes>(c); };
-    slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      const T* const matrix = cell.coefficients + slots_.channel(slot) * shape_.matrix();
-      for (std::size_t l = 0; l < order_v_.value(); l += kLanes<Lanes>) {
-        Series<Lanes> s;
-        horner_series_abreast<kDepth, 1>(order_u_, x, matrix + l, order_v_.value(), load, &s);
-        Powers& power = polynomials_.power[slot];
-        put_series(s, [&](std::size_t derivative, Lanes value)
-                          SIMDBEZIER_INLINE_LAMBDA { store_vector(power[derivative] + l, value); });
-      }
-    });
-  }
-
   /// build() of lanes in any cells of any patches, off the edges u = const: those of lane i have
   /// coefficients from from[i] on. Lanes are powers of Y first, those of a sample side by side in
   /// 128 bits, which are then turned. Reads up to so many bits behind the last coefficient, where
@@ -251,8 +230,8 @@ private:
   }
 
   /// Calls put(derivative, value) for each power's value and derivatives by u.
-  template <typename W, typename Put>
-  SIMDBEZIER_INLINE void put_series(Series<W>& s, const Put& put) const {
+  template <typename Put>
+  SIMDBEZIER_INLINE void put_series(Series<V>& s, const Put& put) const {
     if constexpr (!P::kOneCell) {
       scale_by_cells<kDepth>(s, shape_.cells_u());
     }

@@ -53,9 +53,9 @@ public:
 
   /// Finds origins; to be called where there are origins or points.
   SIMDBEZIER_PART void find_origins(ColumnOrigins<V>& found) const {
-    ShapeEdges<typename P::AnyDegree, V>::all_origins(shape_, x_, watertight_, first_component_,
-                                                      row_->low.edges, row_->low.origins,
-                                                      row_->high.edges, row_->high.origins, found);
+    ShapeEdges<typename P::ForOrigins, V>::all_origins(shape_, x_, watertight_, first_component_,
+                                                       row_->low.edges, row_->low.origins,
+                                                       row_->high.edges, row_->high.origins, found);
   }
 
   /// Replaces what an edge v = const has of its own: kEdgeV0 or kEdgeV1 of these cells.
@@ -66,6 +66,21 @@ public:
       copy_row(own, jet);
     } else {
       compute_row(edge, jet);
+    }
+  }
+
+  /// This is replace_row() of the lanes that are on the edge.
+  SIMDBEZIER_PART void replace_lanes(std::size_t edge, MaskOf<V> on, SampleJet<V>& jet) const {
+    SampleJet<V> own;
+    row_of_edge(edge, own);
+    for (std::size_t c = 0; c < P::Slots::kMost; ++c) {
+      jet.position[c] = select_where<V>(on, own.position[c], jet.position[c]);
+      if constexpr (kDepth > 0) {
+        jet.du[c] = select_where<V>(on, own.du[c], jet.du[c]);
+      }
+      if constexpr (kDepth > 1) {
+        jet.duu[c] = select_where<V>(on, own.duu[c], jet.duu[c]);
+      }
     }
   }
 

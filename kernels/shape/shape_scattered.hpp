@@ -27,16 +27,8 @@ SIMDBEZIER_PART T finite_half_centred(const ScatteredTask<T>& task, T given) {
   return given - given == T(0) ? half_centred(task, given) : static_cast<T>(__builtin_nan(""));
 }
 
-/// Whether a single sample has code of its own, without lanes. WebAssembly does without: its code
-/// goes through the network, and a call from JavaScript takes longer than a sample.
-#if defined(SIMDBEZIER_KERNELS_SIMD128)
-inline constexpr bool kSinglesApart = false;
-#else
-inline constexpr bool kSinglesApart = true;
-#endif
-
 /// The samples [first, first + count) of a task, at most a register of them; further lanes repeat
-/// the last. V = T: a single sample.
+/// the last.
 template <typename V>
 struct SampleLanes {
   using T = ScalarOf<V>;
@@ -50,7 +42,7 @@ struct SampleLanes {
       : patch(task.patch + first) {
     const T* u = task.u + first;
     const T* v = task.v + first;
-    if (!kSinglesApart && count == 1) {
+    if (count == 1) {
       std::fill_n(patches_, kN, *patch);
       patch = patches_;
       x = broadcast<V>(finite_half_centred(task, *u));
@@ -68,13 +60,8 @@ struct SampleLanes {
       u = values_[0];
       v = values_[1];
     }
-    if constexpr (kIsScalar<V>) {
-      x = finite_half_centred(task, *u);
-      y = finite_half_centred(task, *v);
-    } else {
-      x = half_centred(task, load_vector<V>(u));
-      y = half_centred(task, load_vector<V>(v));
-    }
+    x = half_centred(task, load_vector<V>(u));
+    y = half_centred(task, load_vector<V>(v));
   }
   SampleLanes(const SampleLanes&) = delete;
 
@@ -140,20 +127,6 @@ SIMDBEZIER_INLINE void build_known(const ScatteredTask<ScalarOf<V>>& task, const
     return build_mixed(task, shape, lanes, columns, room, built);
   }
   columns.build_inside(task.coefficients + patch * shape.cell_coefficients(), nullptr, built);
-}
-
-/// Builds the columns of a single sample off edges u = const in a set without origins: its lanes
-/// are powers of Y, which takes a quarter of the time. Returns whether it did.
-template <typename P, typename V>
-SIMDBEZIER_PART bool build_across(const ScatteredTask<ScalarOf<V>>& task, const CellColumns<V>& at,
-                                  const CellRow<ScalarOf<V>>& cells, ShapeColumns<P, V>& columns) {
-  if constexpr (kIsScalar<V> && !kIsScalar<vec<ScalarOf<V>>>) {
-    if (!at.local.on_edge && task.origins == nullptr) {
-      columns.build_across(at.any_low ? cells.low : cells.high);
-      return true;
-    }
-  }
-  return false;
 }
 
 /// Stores what a task wants of one component.
@@ -231,13 +204,11 @@ SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size
                                          std::size_t count);
 
 /// Finishes samples [first, first + count) of which not all are usual: those that are on edges
-/// u = const (v = const) which are not done, or not finite, are evaluated alone; normals that do
-/// not pass take the second look. Nothing comes by address, or the fast path would have to keep it
-/// in memory.
+/// which are not done, or not finite, are evaluated alone; normals that do not pass take the second
+/// look. Nothing comes by address, or the fast path would have to keep it in memory.
 template <typename P, typename V>
 SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task, std::size_t first,
-                                    std::size_t count, bool done_u, bool done_v, V squared,
-                                    V floor) {
+                                    std::size_t count, bool edges_done, V squared, V floor) {
   using T = ScalarOf<V>;
   const SampleLanes<V> lanes(task, first, count);
   if (P::kKnown && all_equal<kLanes<V>>(lanes.patch, *lanes.patch)) { // edges have formulas there
@@ -254,8 +225,7 @@ SIMDBEZIER_RARE void finish_unusual(const ScatteredTask<ScalarOf<V>>& task, std:
     const std::size_t k = first + i;
     const T u = value[0][i];
     const T v = value[1][i];
-    const bool edge =
-        (!done_u && edge_of_cell(u) < kEdges) || (!done_v && edge_of_cell(v) < kEdges);
+    const bool edge = !edges_done && (edge_of_cell(u) < kEdges || edge_of_cell(v) < kEdges);
     const bool finite = u - u == T(0) && v - v == T(0);
     if (edge || (!finite && count > 1)) {
       evaluate_together<P::kDepth, P::kWeighted>(task, k, 1);
@@ -301,7 +271,6 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
   const SampleRange<V> range{0, k, count, 0, lanes.x, lanes.y, {}};
   ColumnOrigins<V> origins;
   SampleJet<V> jet;
-  std::size_t edge = kEdges; // v = const, where all lanes are on it
   const bool one_row =
       !P::kKnown && (kIsScalar<V> || (all_equal<kLanes<V>>(lanes.patch, *lanes.patch) &&
                                       !(rows.any_low && rows.any_high)));
@@ -324,16 +293,13 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
     const CellRow<T> cells(task, shape, *lanes.patch, rows.any_low ? 0 : 1);
     const typename ShapeColumns<P, V>::Edges edges(shape, columns, lanes.x, task.watertight,
                                                    task.first_component, cells);
-    const auto all_on = [&](T local) SIMDBEZIER_INLINE_LAMBDA {
-      return task.watertight && all_of<V>(rows.local.x == broadcast<V>(local));
-    };
-    edge = all_on(T(-0.5)) ? detail::kEdgeV0 : all_on(T(0.5)) ? detail::kEdgeV1 : kEdges;
-    if (!build_across(task, columns, cells, polynomials)) {
-      build_columns(polynomials, cells, edges, origins);
-    }
+    build_columns(polynomials, cells, edges, origins);
     polynomials.template evaluate<1>(&rows.local.x, &jet);
-    if (edge < kEdges) [[unlikely]] {
-      edges.replace_row(edge, jet);
+    for (const detail::Edge edge : {detail::kEdgeV0, detail::kEdgeV1}) {
+      const MaskOf<V> on = rows.local.x == broadcast<V>(T(edge == detail::kEdgeV0 ? -0.5 : 0.5));
+      if (task.watertight && any_of<V>(on)) [[unlikely]] {
+        edges.replace_lanes(edge, on, jet);
+      }
     }
   } else if constexpr (!kIsScalar<V>) {
     build_mixed(task, shape, lanes, polynomials, origins,
@@ -365,8 +331,7 @@ SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, cons
     }
   }
   if (!all_pass()) [[unlikely]] {
-    finish_unusual<P>(task, k, count, one_row || !task.watertight,
-                      edge < kEdges || !task.watertight, squared, floor);
+    finish_unusual<P>(task, k, count, one_row || !task.watertight, squared, floor);
   }
 }
 
@@ -375,13 +340,7 @@ template <std::size_t kDepth, bool kRational, typename T>
 SIMDBEZIER_KERNEL void evaluate_together(const ScatteredTask<T>& task, std::size_t k,
                                          std::size_t count) {
   using P = ShapePlan<kDepth, kRational, 0, 0, 0>;
-  const NetShape shape = P::shape(*task.shape);
-  if constexpr (kSinglesApart) {
-    if (count == 1) {
-      return evaluate_block<P, T>(task, shape, k, 1);
-    }
-  }
-  evaluate_block<P, vec<T>>(task, shape, k, count);
+  evaluate_block<P, vec<T>>(task, P::shape(*task.shape), k, count);
 }
 
 /// Evaluates the positions of two registers of samples inside of one bicubic patch, which share the
