@@ -7,13 +7,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Returns how many planes outputs have: up to three components.
-template <typename T>
-SIMDBEZIER_PART std::size_t wanted_components(const GridTask<T>& task) {
-  const std::size_t left = static_cast<std::size_t>(task.shape->components) - task.first_component;
-  return left < 3 ? left : 3;
-}
-
 /// Returns the edge v = const that a run of rows is on, or kEdges where it is on none, or edges are
 /// as good as any row.
 template <typename T>
@@ -26,8 +19,13 @@ template <typename P>
 inline constexpr bool kInPairs = takes_even_odd(P::OrderV::kMost) &&
                                  (P::kDepth == 0 || (P::kDepth == 1 && P::kSingle));
 
+/// Whether single columns, such as sides of patches in a mesh, have rows as lanes: with normals,
+/// where a row has much to compute.
+template <typename P>
+inline constexpr bool kSweepsSingle = !P::kSingle && P::kDepth == 1;
+
 /// Sweeps all rows of a register of columns. kFull says that all lanes are columns; kPairs, that
-/// pairs_pay().
+/// pairs_pay(). Lanes of a single column are rows, so that a register holds as many points.
 ///
 /// Rows on edges, pairs and single rows have loops of their own: in one loop, polynomials leave the
 /// registers, which costs 10 to 30 % of the speed (docs/experiments.md).
@@ -39,21 +37,23 @@ SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, v
   const ColumnPolynomials<P, V> polynomials = columns.polynomials();
   const ColumnOrigins<V>* const origins = columns.origins();
   const V floor = range.floor;
-  range.active = kFull ? kLanes<V> : range.active;
-  const auto evaluate = [&](T y, SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
-    range.y = broadcast<V>(y);
+  const bool single = kSweepsSingle<P> && task.nu == 1;
+  const std::size_t active = kFull ? kLanes<V> : range.active;
+  const auto evaluate = [&](SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
     polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &range.y, origins, &jet);
   };
   for (std::size_t r = 0; r < task.run_count; ++r) {
     const RowRun<T> run = task.runs[r];
     const std::size_t edge = own_edge(task, run);
+    range.active = active;
     if constexpr (!P::kSingle) {
       range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
     }
     if (edge < kEdges) {
       SampleJet<V> jet;
+      range.y = broadcast<V>(run.y[0]);
       if constexpr (P::kDepth > 0) { // of positions, edges need nothing that the columns give
-        evaluate(run.y[0], jet);
+        evaluate(jet);
       }
       edges.replace_row(edge, jet);
       for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
@@ -75,38 +75,18 @@ SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, v
       }
       range.at = behind;
     } else {
-      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+      for (std::size_t j = 0; j < run.rows; j += single ? kLanes<V> : 1) {
         SampleJet<V> jet;
-        evaluate(run.y[j], jet);
+        if (single) {
+          range.y = load_vector<V>(run.y + j);
+          range.active = std::min(run.rows - j, kLanes<V>);
+        } else {
+          range.y = broadcast<V>(run.y[j]);
+        }
+        evaluate(jet);
         store_sample<P>(task, range, jet);
+        range.at += single ? range.active : task.nu;
       }
-    }
-  }
-}
-
-/// Sweeps a single column, such as a side of a patch in a mesh. Lanes are rows, and all of them
-/// have the column's parameter, so that a register holds as many points.
-template <typename P, typename T>
-SIMDBEZIER_KERNEL void sweep_single(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
-                                    const typename ShapeColumns<P, vec<T>>::Edges& edges,
-                                    SampleRange<vec<T>> range) {
-  using V = vec<T>;
-  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
-  const V floor = range.floor;
-  for (std::size_t r = 0; r < task.run_count; ++r) {
-    const RowRun<T> run = task.runs[r];
-    const std::size_t edge = own_edge(task, run);
-    range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
-    for (std::size_t j = 0; j < run.rows; j += kLanes<V>, range.at += range.active) {
-      SampleJet<V> jet;
-      range.y = load_vector<V>(run.y + j);
-      range.active = std::min(run.rows - j, kLanes<V>);
-      polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &range.y,
-                                       columns.origins(), &jet);
-      if (edge < kEdges) {
-        edges.replace_row(edge, jet);
-      }
-      store_sample<P>(task, range, jet);
     }
   }
 }
@@ -121,10 +101,6 @@ SIMDBEZIER_PART bool pairs_pay(const GridTask<T>& task) {
   }
   return mirrored;
 }
-
-/// Whether single columns have a loop of their own: where meshes with normals ask for them.
-template <typename P>
-inline constexpr bool kSweepsSingle = !P::kSingle && P::kDepth == 1;
 
 /// Sweeps the columns from `first` on of one patch, and components from `component` on. pairs is
 /// what pairs_pay() returns.
@@ -145,12 +121,6 @@ SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shap
   ShapeColumns<P, V> columns(shape, at, first_component);
   ColumnOrigins<V> origins;
   columns.build(cells, edges, origins);
-  if constexpr (kSweepsSingle<P>) {
-    if (single) {
-      range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
-      return sweep_single<P>(task, columns, edges, range);
-    }
-  }
   if constexpr (kInPairs<P>) {
     if (pairs) {
       return sweep_rows<P, true, true>(task, columns, edges, range);
@@ -172,7 +142,8 @@ SIMDBEZIER_KERNEL void sweep_known(const GridTask<T>& shared_task) {
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);
   const bool pairs = kInPairs<P> && pairs_pay(task);
-  const std::size_t components = P::kSingle ? wanted_components(task) : 1;
+  const std::size_t left = static_cast<std::size_t>(shape.components) - task.first_component;
+  const std::size_t components = P::kSingle ? std::min<std::size_t>(left, 3) : 1;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     for (std::size_t next = 0; next < task.nu; next += kLanes<vec<T>>) {
       const std::size_t first = register_start<vec<T>>(next, task.nu, 1);
