@@ -9,7 +9,6 @@
 
 #include "kernels/pack/pack_formulas.hpp"
 #include "kernels/pack/pack_groups.hpp"
-#include "kernels/pack/shape_pack_io.hpp"
 #include "kernels/pack/zero_signs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -74,9 +73,22 @@ private:
 
   /// Copies nets of any layout to kWideLanes packed ones; the last is repeated.
   void gather(std::size_t first, std::size_t count, S* packed) const {
-    NetReader<T, S> reader(task_.nets, task_.relative_to);
-    reader.begin(first, count);
-    reader.copy(kWideLanes, packed);
+    const ControlNets<S>& nets = task_.nets;
+    for (std::size_t p = 0; p < kWideLanes; ++p) {
+      const std::size_t patch = first + (p < count ? p : count - 1);
+      const S* const net = nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
+      if (triples_) {
+        __builtin_memcpy(packed, net, sizeof(S) * kNet);
+        packed += kNet;
+        continue;
+      }
+      for (std::ptrdiff_t k = 0; k < 16; ++k) {
+        const S* const point = net + k / 4 * nets.row_stride + k % 4 * nets.point_stride;
+        for (std::ptrdiff_t c = 0; c < 3; ++c) {
+          *packed++ = point[c * nets.component_stride];
+        }
+      }
+    }
   }
 
   /// Packs the last, incomplete group of a range: it is computed whole, and copied in part. Stores
