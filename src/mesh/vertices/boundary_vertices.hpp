@@ -283,7 +283,7 @@ private:
     const std::ptrdiff_t step = reversed ? -1 : 1;
     const T* const t = shares + (reversed ? points - 1 - k : k);
     const T* const end = kEnds + side % 2;
-    const std::uint32_t patch = side / kPatchEdges;
+    const auto patch = static_cast<std::uint32_t>(side / kPatchEdges);
     vertex -= to_.parameters_first;
     if (runs_in_u(side)) {
       to_.parameters.put_run(vertex, count, patch, t, step, end, 0);
