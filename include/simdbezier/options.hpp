@@ -42,10 +42,10 @@ enum class Isa : std::uint8_t {
 ///
 /// If nobody names an instruction set, evaluate() on a Grid may use the next narrower one of the
 /// same class (avx2 instead of avx512) for outputs that stay in the caches, because some processors
-/// are faster with it on small grids. The first such call of a kind (shape, size of the grid,
-/// outputs and their layout) with 1024 samples or more measures both, in 20 microseconds to two
-/// milliseconds; the process keeps the answer. The bits are equal; take_executed_isa() tells which
-/// one ran.
+/// are faster with it on small grids. The first two calls of a kind (shape, size of the grid,
+/// outputs and their layout) with 1024 samples or more measure both, in 20 microseconds to two
+/// milliseconds. If they disagree, a third call decides, and the process keeps the answer. The
+/// bits are equal; take_executed_isa() tells which one ran.
 ///
 /// Returns ok | unknown_isa | unsupported_isa; `chosen` is written on ok only.
 [[nodiscard]] SIMDBEZIER_API Status resolve_isa(Isa requested, Isa& chosen) noexcept;
