@@ -189,7 +189,7 @@ struct TopologyData {
     return given != (is_turned(a / kPatchEdges) != is_turned(b / kPatchEdges));
   }
 
-  /// Calls at_corner(lowest of the joined corners) and at_edge(edge) for those that a patch owns.
+  /// Calls at_corner(lowest of the joined corners) for those that a patch owns.
   template <typename AtCorner>
   void for_owned_corners(std::size_t patch, const AtCorner& at_corner) const {
     unsigned owned = 0; // 1 << corner
@@ -201,6 +201,7 @@ struct TopologyData {
                 static_cast<std::uint32_t>(std::countr_zero(owned)));
     }
   }
+  /// Calls at_edge(edge) for those that a patch owns.
   template <typename AtEdge>
   void for_owned_edges(std::size_t patch, const AtEdge& at_edge) const {
     for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
