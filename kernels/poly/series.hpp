@@ -229,6 +229,21 @@ SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficie
   return s;
 }
 
+/// Finds the values alone of horner_rows(), of coefficients that stand side by side in memory: an
+/// address goes from one to the next, where an index would have to be made an address each time.
+template <std::size_t kCount, typename V>
+SIMDBEZIER_INLINE void horner_values(std::size_t order, const V* t, const V* coefficients,
+                                     V* values) {
+  const V* c = coefficients + (order - 1);
+  const V last = *c;
+  repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { values[i] = last; });
+  do {
+    const V next = *--c;
+    repeat<kCount>([&](std::size_t i)
+                       SIMDBEZIER_INLINE_LAMBDA { values[i] = madd(values[i], t[i], next); });
+  } while (c != coefficients);
+}
+
 /// This is horner_rows() of kCount polynomials at one parameter: columns, whose coefficients stand
 /// in memory as [power][polynomial], with `step` from one power to the next. load turns an address
 /// and the polynomial's number into a register. The sums stay in registers while the loop runs,

@@ -14,6 +14,13 @@ class ShapeColumns {
   using T = ScalarOf<V>;
   using Powers = typename ColumnPolynomials<P, V>::Powers;
   static constexpr std::size_t kDepth = P::kDepth;
+  /// Powers at once where the compiler does not know how many there are: enough to hide the latency
+  /// of Horner's rule, few enough for 16 registers. Positions have code for every number up to 8,
+  /// since columns of high degrees are most of their work, as far as the number of columns makes
+  /// it usual: 16 of them are two registers or one.
+  template <bool kMixed>
+  static constexpr bool kAnyNumber =
+      kDepth == 0 && !P::kWeighted && !kCompactShapes && (!kMixed || kLanes<V> == 16);
 
 public:
   using Edges = ShapeEdges<P, V>;
@@ -21,7 +28,8 @@ public:
   SIMDBEZIER_PART ShapeColumns(const NetShape& shape, const CellColumns<V>& columns,
                                std::size_t first_component)
       : shape_(P::shape(shape)), columns_(columns), slots_(shape_, first_component),
-        order_u_(shape_.order_u()), order_v_(shape_.order_v()) {}
+        order_u_(shape_.order_u()), order_v_(shape_.order_v()),
+        abreast_(shape_.order_v() < 4 ? 2 : even_share(shape_.order_v(), 8)) {}
 
   /// Builds the columns in one row of cells, to which `edges` belong. room lives as long as they
   /// are used.
@@ -148,8 +156,10 @@ private:
                          SIMDBEZIER_INLINE_LAMBDA { build_runs<kMixed, kCount>(low, high); };
     if constexpr (P::kKnown) {
       run.template operator()<P::OrderV::kMost>();
-    } else { // enough to hide the latency of Horner's rule, and few enough for 16 registers
-      with_one_of<2, 4>(order_v_.value() < 4 ? 2 : 4, run);
+    } else if constexpr (kAnyNumber<kMixed>) {
+      with_one_of<2, 4, 5, 6, 7, 8>(abreast_, run);
+    } else {
+      with_one_of<2, 4>(abreast_ < 4 ? 2 : 4, run);
     }
   }
 
@@ -180,8 +190,8 @@ private:
     const std::ptrdiff_t edges_to_high = high.edges - low.edges;
     const auto load = [&](const T* c, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
       if constexpr (kMixed) {
-        return select_where<V>(columns_.low, broadcast<V>(c[i]),
-                               broadcast<V>((c + matrix_to_high)[i]));
+        // Behind the last coefficient stand the edges, so that whole tables can be read.
+        return select_entry<V>(columns_.low, c, c + matrix_to_high, i);
       } else {
         return broadcast<V>(c[i]);
       }
@@ -264,6 +274,7 @@ private:
   typename P::Slots slots_;
   typename P::OrderU order_u_;
   typename P::OrderV order_v_;
+  std::size_t abreast_; ///< equal parts of the powers, 2 or 4 to 8 of them
   const ColumnOrigins<V>* origins_ = nullptr;
   ColumnPolynomials<P, V> polynomials_;
 };

@@ -59,14 +59,14 @@ private:
   template <std::size_t kCount>
   SIMDBEZIER_INLINE void evaluate(const V* power, const V* y, V* values) const {
     const typename P::OrderV order = columns_.order_v();
-    const auto load = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return power[k]; };
-    Series<V> s[kCount];
     if (kCount == kEvenOddRows && takes_even_odd(order.value())) {
-      even_odd_rows<0, kCount>(order, y, load, s);
+      Series<V> s[kCount];
+      even_odd_rows<0, kCount>(
+          order, y, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return power[k]; }, s);
+      repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { values[i] = s[i].value; });
     } else {
-      horner_rows<0, kCount>(order, y, load, s);
+      horner_values<kCount>(order.value(), y, power, values);
     }
-    repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { values[i] = s[i].value; });
   }
 
   template <std::size_t kCount>

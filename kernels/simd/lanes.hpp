@@ -251,6 +251,24 @@ SIMDBEZIER_INLINE void store_line(ScalarOf<V>* to, V value, bool streams) {
   store_vector(to, value);
 }
 
+/// Returns entry i, below 8, of one table in the lanes of the mask, and of another one in the rest.
+/// Either table has 8 values that can be read.
+template <typename V>
+SIMDBEZIER_INLINE V select_entry(MaskOf<V> first, const ScalarOf<V>* a, const ScalarOf<V>* b,
+                                 std::size_t i) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  // Both tables are in one register, of which each entry is one permutation.
+  if constexpr (std::is_same_v<V, vec<float>>) {
+    const int entry = static_cast<int>(i);
+    const __m512i lane = _mm512_mask_set1_epi32(_mm512_set1_epi32(8 + entry), first, entry);
+    return V(
+        _mm512_permutexvar_ps(lane, _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(a)),
+                                                       _mm256_loadu_ps(b), 1)));
+  }
+#endif
+  return select_where<V>(first, broadcast<V>(a[i]), broadcast<V>(b[i]));
+}
+
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 SIMDBEZIER_INLINE void masked_store(float* to, vec<float> value, std::size_t n) {
   _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1U << n) - 1U), value);
