@@ -92,13 +92,13 @@ SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& p
     return true;
   }
   // Positions that are whole lines are as fast in pairs of registers. By plain stores to memory,
-  // rows of a few lines go slowly in any order but that of tiles. A single column behind one short
+  // rows of a few lines go slowly in any order but that of tiles. A single column behind one
   // register goes along with it.
   const bool whole_lines = task.nu * sizeof(T) % 64 == 0;
   if (kPositions && (whole_lines || (task.plain_to_memory && registers < 5))) {
     return false;
   }
-  const bool single = !kLineWide<V> && task.nu == kLanes<V> + 1;
+  const bool single = task.nu == kLanes<V> + 1;
   return registers >= 2 && !single && piece.rows() >= 5; // few rows are not worth the preparations
 }
 

@@ -21,18 +21,17 @@ class RowBand {
   using Last = ColumnTile<1, true, kSingle, V>;
   static constexpr std::size_t kL = kLanes<V>;
   static constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
-  /// Registers of a line have more to do for stores than for products. If stores across lines are
-  /// slow, rows in order are stored faster than rows from both ends.
-  static constexpr RowPairs kPairs =
-      kLineWide<V> ? RowPairs::where_splits_are_cheap : RowPairs::always;
+  static constexpr std::size_t kPlanes = kJets ? 3 : 1;
+  /// Registers of a line have more to do for stores than for products: rows in order are stored
+  /// faster than rows from both ends.
+  static constexpr RowPairs kPairs = kLineWide<V> ? RowPairs::never : RowPairs::always;
 
 public:
   /// The band is columns [first, end).
   SIMDBEZIER_PART RowBand(const GridTask<T>& task, std::size_t first, std::size_t end)
       : RowBand(task, first, end, std::make_index_sequence<kCount - 1>()) {}
 
-  /// Sweeps one component, whose planes are given from the band's first column on. A store costs
-  /// less if the next one goes to the same line or the one behind it: a row goes plane by plane.
+  /// Sweeps one component, whose planes are given from the band's first column on.
   SIMDBEZIER_PART void sweep(const RowPiece<T>& piece, const Component<T>& c, std::size_t nu,
                              const JetPlanes<T>& to, const ColumnPlanes<T>& extra) const {
     JetColumns<V, false> columns[kCount];
@@ -44,64 +43,52 @@ public:
                       column_polynomial(c, tile.column, columns[k].q);
                     }
                   });
-    // Calls put(plane, its number, parts_of), where parts_of(k) are the parts of the k-th tile.
-    const auto for_planes = [&](const RowPoint<V>& at, const auto& put) SIMDBEZIER_INLINE_LAMBDA {
-      put(to.position, 0,
-          [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); });
+    T* const planes[] = {to.position, to.du, to.dv};
+    const auto store = [&](const auto& tile, std::size_t plane, std::size_t column, RowPlace place,
+                           V value) SIMDBEZIER_INLINE_LAMBDA {
+      tile.store(planes[plane] + place.at + column, nu, value, 1, extra.plane(plane) + place.row);
+    };
+    const auto parts_of = [&](std::size_t k, std::size_t plane,
+                              const RowPoint<V>& at) SIMDBEZIER_INLINE_LAMBDA {
       if constexpr (kJets) {
-        put(to.du, 1,
-            [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); });
-        put(to.dv, 2,
-            [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); });
+        if (plane > 0) {
+          return plane == 1 ? value_parts(columns[k].dq, at) : slope_parts(columns[k].q, at);
+        }
       }
+      return value_parts(columns[k].q, at);
+    };
+    const auto put = [&](const T* y, RowPlace place,
+                         const auto&... mirror) SIMDBEZIER_INLINE_LAMBDA {
+      const auto at = piece.template point<1, V>(y);
+      for_tiles([&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+        Parts<V> parts[kPlanes];
+        repeat<kPlanes>([&](std::size_t plane) SIMDBEZIER_INLINE_LAMBDA {
+          parts[plane] = parts_of(k, plane, at);
+          store(tile, plane, column, place, parts[plane].sum());
+        });
+        repeat<kPlanes>([&](std::size_t plane) SIMDBEZIER_INLINE_LAMBDA {
+          (store(tile, plane, column, mirror, parts[plane].difference()), ...);
+        });
+      });
     };
     for_rows<RowOrder{1, kPairs, 1}>(
         piece, 0, nu,
         [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-          for_tiles([&](std::size_t k, std::size_t column,
-                        const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
-            const auto put = [&](T* plane, std::size_t number, V value) SIMDBEZIER_INLINE_LAMBDA {
-              tile.store(plane + place.at + column, nu, value, 1, extra.plane(number) + place.row);
-            };
-            if constexpr (kJets) {
-              const Jet<V> jet = columns[k].edge(c, tile, edge_of(kind));
-              put(to.position, 0, jet.p);
-              put(to.du, 1, jet.du);
-              put(to.dv, 2, jet.dv);
-            } else {
-              put(to.position, 0, tile.edge_rows(c, edge_of(kind)));
-            }
-          });
+          for_tiles([&](std::size_t k, std::size_t column, const auto& tile)
+                        SIMDBEZIER_INLINE_LAMBDA {
+                          if constexpr (kJets) {
+                            const Jet<V> jet = columns[k].edge(c, tile, edge_of(kind));
+                            store(tile, 0, column, place, jet.p);
+                            store(tile, 1, column, place, jet.du);
+                            store(tile, 2, column, place, jet.dv);
+                          } else {
+                            store(tile, 0, column, place, tile.edge_rows(c, edge_of(kind)));
+                          }
+                        });
         },
-        [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
-          for_planes(
-              piece.template point<1, V>(y),
-              [&](T* plane, std::size_t number, const auto& parts_of) SIMDBEZIER_INLINE_LAMBDA {
-                const T* const behind = extra.plane(number);
-                V mirrored[kCount];
-                for_tiles([&](std::size_t k, std::size_t column,
-                              const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
-                  const Parts<V> parts = parts_of(k);
-                  mirrored[k] = parts.difference();
-                  tile.store(plane + place.at + column, nu, parts.sum(), 1, behind + place.row);
-                });
-                for_tiles([&](std::size_t k, std::size_t column,
-                              const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
-                  tile.store(plane + mirror.at + column, nu, mirrored[k], 1, behind + mirror.row);
-                });
-              });
-        },
-        [&](const T* y, RowPlace place, std::size_t /*rows*/) SIMDBEZIER_INLINE_LAMBDA {
-          for_planes(piece.template point<1, V>(y),
-                     [&](T* plane, std::size_t number, const auto& parts_of)
-                         SIMDBEZIER_INLINE_LAMBDA {
-                           for_tiles([&](std::size_t k, std::size_t column,
-                                         const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
-                             tile.store(plane + place.at + column, nu, parts_of(k).sum(), 1,
-                                        extra.plane(number) + place.row);
-                           });
-                         });
-        });
+        put,
+        [&](const T* y, RowPlace place, std::size_t /*rows*/)
+            SIMDBEZIER_INLINE_LAMBDA { put(y, place); });
   }
 
 private:

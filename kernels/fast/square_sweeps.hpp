@@ -59,7 +59,8 @@ SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
 /// registers left for that.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
 constexpr bool kIsStream = kStreamsLines && (kOutputs != detail::kPositionNormal) &&
-                           (kSide >= kLanes<vec<T>> / 2) && (kSide <= 2 * kLanes<vec<T>> + 1);
+                           (kSide >= kLanes<vec<T>> / 2) && (kSide <= 2 * kLanes<vec<T>> + 1) &&
+                           (kSide < 32);
 
 /// Whether that pays in staging as well, which stays in the first-level cache: splitting stores
 /// costs less there.
@@ -68,20 +69,23 @@ constexpr bool kIsStagedStream = (kSide <= kLanes<vec<T>> + 1) &&
                                  ((kSide * 2 == kLanes<vec<T>>) ||
                                   (kOutputs == detail::kPositionDerivatives));
 
-/// Whether straight code pays for them on any machine: not where roots set the pace, nor for
-/// derivatives of rows of more than one tile, which are faster side by side, in bands.
+/// Whether straight code pays for them on some machine: not where roots set the pace, nor for
+/// derivatives of many registers a row, which are faster side by side, in bands.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-constexpr bool
-    kIsStraight = kOutputs == detail::kPositionNormal ? kSide != 16
-                  : kOutputs == detail::kPositionDerivatives
-                      ? kSide <= (kSquaresInPairs<kOutputs, kSide, T> ? 2 : 1) * kLanes<vec<T>> + 1
-                      : true;
+constexpr bool kIsStraight = kOutputs == detail::kPositionNormal ? kSide % 16 != 0
+                             : kOutputs == detail::kPositionDerivatives
+                                 ? kSide <= (kLineWide<vec<T>> ? 4 : 2) * kLanes<vec<T>> + 1
+                                 : true;
 
-/// Whether rows of such squares have a column or a part of a register behind whole ones, which
-/// straight code has for machines with cheap stores across lines. Normals are the same everywhere.
+/// Whether straight code pays only if stores across lines are cheap: if rows have a column or a
+/// part of a register behind whole ones, for squares of 32, and for derivatives of more than one
+/// tile, which are faster in bands elsewhere. Normals are the same everywhere.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-constexpr bool kSharesLines = (kOutputs != detail::kPositionNormal) &&
-                              (kSide % kLanes<vec<T>> != 0) && (kLanes<vec<T>> != kSide * 2);
+constexpr bool kNeedsCheapSplits =
+    kOutputs != detail::kPositionNormal &&
+    ((kSide % kLanes<vec<T>> != 0 && kLanes<vec<T>> != kSide * 2) || kSide == 32 ||
+     (kOutputs == detail::kPositionDerivatives &&
+      kSide > (kSquaresInPairs<kOutputs, kSide, T> ? 2 : 1) * kLanes<vec<T>> + 1));
 
 /// Calls visit.operator()<Square>() if the piece is a square with one of these sides and there is
 /// code for it, and returns whether it is.
@@ -102,7 +106,7 @@ SIMDBEZIER_INLINE bool with_square_of(std::index_sequence<kSides...> /*sides*/,
           }
         }
         if constexpr (kIsStraight<kOutputs, kSide, T>) {
-          if (!kSharesLines<kOutputs, kSide, T> || !task.by_lines) {
+          if (!kNeedsCheapSplits<kOutputs, kSide, T> || !task.by_lines) {
             visit.template operator()<SquarePiece<T, kSide, false>>();
             return true;
           }
@@ -113,6 +117,6 @@ SIMDBEZIER_INLINE bool with_square_of(std::index_sequence<kSides...> /*sides*/,
 }
 
 /// Squares that gain by code of their own.
-using SquareSides = std::index_sequence<8, 9, 16, 17>;
+using SquareSides = std::index_sequence<8, 9, 16, 17, 32>;
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

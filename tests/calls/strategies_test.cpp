@@ -84,9 +84,9 @@ protected:
     PatchSet<T> set;
     const auto points = values_of<T>(wavy_nets(kPatches));
     ASSERT_TRUE(pack(ControlNets<T>::packed(std::span<const T>(points), 3, 3, 3), set));
-    constexpr std::size_t kSizes[][2] = {{2, 2},   {2, 5},   {6, 2},   {3, 6},   {4, 4},
-                                         {5, 5},   {8, 8},   {9, 9},   {12, 20}, {16, 16},
-                                         {17, 17}, {33, 33}, {40, 24}, {64, 20}, {128, 64}};
+    constexpr std::size_t kSizes[][2] = {{2, 2},   {2, 5},   {6, 2},   {3, 6},   {4, 4},   {5, 5},
+                                         {8, 8},   {9, 9},   {12, 20}, {16, 16}, {17, 17}, {32, 32},
+                                         {33, 33}, {40, 24}, {64, 20}, {128, 64}};
     for (const auto& size : kSizes) {
       for (const Kind kind : kKinds) {
         for (const Destination where : {Destination::cache, Destination::memory}) {
