@@ -85,7 +85,8 @@ SIMDBEZIER_KERNEL void format_kernel(const detail::FormatTask<T>& task) {
     return format_column<OctahedralFormat<16>>(task);
   case VertexFormat::octahedral8:
     return format_column<OctahedralFormat<8>>(task);
-  default:
+  case VertexFormat::unorm16:
+  case VertexFormat::snorm16:
     return format_components<StepFormat>(task);
   }
 }

@@ -160,8 +160,8 @@ SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
     const MaskOf<V> regular = squared > normal_floor<P>(task, range[i], jet[i], squared);
     all_regular = all_regular & regular;
   }
-  ScalarOf<V>* const plane[] = {task.curvature[0], task.curvature[1], task.curvature[2],
-                                task.curvature[3]};
+  ScalarOf<V>* const plane[kCurvatureKinds] = {task.curvature[0], task.curvature[1],
+                                               task.curvature[2], task.curvature[3]};
   bool all_whole = range[0].active == kLanes<V>;
   for (ScalarOf<V>* const each : plane) {
     all_whole = all_whole && each != nullptr;

@@ -27,9 +27,10 @@ enum class GridStrategy : std::uint8_t {
 inline constexpr std::size_t kGridStrategies = static_cast<std::size_t>(GridStrategy::tiles) + 1;
 
 /// Names as the benchmark's --without spells them.
-inline constexpr std::string_view kGridStrategyNames[kGridStrategies] = {
+inline constexpr std::string_view kGridStrategyNames[] = {
     "squares_of_four", "small_across", "small_groups", "streamed_order", "records", "streamed_rows",
     "squares",         "bands",        "components",   "across_lines",   "strips",  "tiles"};
+static_assert(std::size(kGridStrategyNames) == kGridStrategies);
 
 /// A set of strategies.
 class StrategySet {
