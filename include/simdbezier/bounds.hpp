@@ -50,7 +50,7 @@ template <typename T>
 
 /// Bounds the distance of each patch from the bilinear patch L of its four corner points: max
 /// |S(u,v) - L(u,v)|, Euclidean over all components. Two triangles are at most as far from the
-/// patch as this bound and their own distance from L together.
+/// patch as the sum of this bound and their own distance from L.
 /// Formula: max |P_ij - L(i/m, j/n)|; for rational nets the same at degree (m+1, n+1).
 ///          docs/accuracy.md has the proof and counts the roundings. 0 if all points are equal;
 ///          infinite if weights come near the ends of the number range or differences overflow.

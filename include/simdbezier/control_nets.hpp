@@ -62,7 +62,7 @@ struct ControlNets {
             stride(row), stride(point), 1,        components, weights,
             {}};
   }
-  /// Makes as many nets as there are points for. An incomplete one counts, so that calls refuse it.
+  /// Makes as many nets as `points` contains. An incomplete last one counts; calls then refuse it.
   [[nodiscard]] static constexpr ControlNets packed(std::span<const S> points, int degree_u = 3,
                                                     int degree_v = 3, int components = 3,
                                                     Weights weights = Weights::none) noexcept {
@@ -114,7 +114,8 @@ struct ControlCurves {
         (std::ptrdiff_t{degree} + 1) * point; // no int: any degree may come
     return {points, count, degree, curve, point, 1, components, weights, {}};
   }
-  /// Makes as many curves as there are points for, an incomplete one included, which calls refuse.
+  /// Makes as many curves as `points` contains. An incomplete last one counts; calls then refuse
+  /// it.
   [[nodiscard]] static constexpr ControlCurves packed(std::span<const S> points, int degree = 3,
                                                       int components = 3,
                                                       Weights weights = Weights::none) noexcept {

@@ -39,7 +39,7 @@ public:
   [[nodiscard]] SIMDBEZIER_API std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
-  /// What all curves have in common; a default-constructed set has that of ControlCurves{}.
+  /// Degree, components and weights of all curves; those of ControlCurves{} if default-constructed.
   [[nodiscard]] SIMDBEZIER_API int degree() const noexcept;
   [[nodiscard]] SIMDBEZIER_API int components() const noexcept;
   [[nodiscard]] SIMDBEZIER_API bool rational() const noexcept;
@@ -61,7 +61,8 @@ private:
 ///             around their own middles, as accurate as de Casteljau's algorithm.
 /// curves:     S = float or double; the memory may be freed after the call.
 /// options:    as for patches, but reuse_memory has no effect. relative_to applies to the first
-///             three components. A curve matches a patch's edge only with the patch's options.
+///             three components. A curve has the bits of a patch's edge only if both have the same
+///             options.
 /// Numerics:   S = T = float: formed in double, else in double-double; rounded once to T. Results
 ///             depend neither on the instruction set nor on threads. -0 becomes +0.
 /// Allocation: one block: for cubics in space 19 T and 12 S a curve. Positions read 18 T of these.
@@ -125,12 +126,13 @@ template <typename T>
 /// The outputs of a call: at least one vector or the curvature. Tangents and curvatures need two or
 /// three components, and are never nan for t in [0,1]. If d1 is zero (a cusp, repeated control
 /// points), the tangent has the direction of the first Taylor coefficient of d1 that is not zero on
-/// the way to the curve's middle (upwards from t = 1/2): SampleStatus::limit. This is decided
-/// exactly, for the control points as given. The curvature is its limit on that way: +infinity at a
-/// usual cusp, 0 on a straight line. If all coefficients are zero, the curve is a point, and both
-/// are zero: SampleStatus::degenerate. Curvatures of regular samples have no error bound, because
-/// rounded d1 and d2 are divided by |d1|^3: near cusps and on nearly straight curves no digit may
-/// be correct. Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
+/// the way to the curve's middle (upwards from t = 1/2), and the status is SampleStatus::limit.
+/// Which coefficient that is, is decided exactly, for the control points as given. The curvature is
+/// its limit on that way: +infinity at a usual cusp, 0 on a straight line. If all coefficients are
+/// zero, the curve is a point, and both are zero: SampleStatus::degenerate. Curvatures of regular
+/// samples have no error bound, because rounded d1 and d2 are divided by |d1|^3: near cusps and on
+/// nearly straight curves no digit may be correct. Source: G. Farin, Curves and Surfaces for CAGD,
+/// chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {
   Vectors<T> position;
@@ -249,12 +251,14 @@ template <typename T, typename S>
                                           CurveSet<T>& curves,
                                           const PackOptions& options = {}) noexcept;
 
-/// Packs the iso-parametric curve of every patch of a set, which keeps its control points as they
-/// were given; PackOptions::relative_to is that of the set, local_origin is not.
+/// Packs the iso-parametric curve of every patch of a set. A set keeps its control points as they
+/// were given, and they are used here. PackOptions::relative_to is taken from the set, but
+/// local_origin is taken from `options`.
 /// patches:    of one shape; their nets need not exist any more.
-/// Numerics:   as the call above on the nets. At 0 and 1 a set of double with the same local_origin
-///             gives the bits of its edges, and one of float gives them but for their rounding. If
-///             the forms of weights differ, points are divided by their weights at the end.
+/// Numerics:   as the call above on the nets. If u0 is 0 or 1 and local_origin is that of the set,
+///             curves of a set of double have the bits of its edges, and curves of a set of float
+///             differ from them by roundings only. If the forms of weights differ, points are
+///             divided by their weights at the end.
 /// Allocation: (degree + 1) (components + 1 with weights) doubles a patch, and the curves.
 /// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0, or points there)
 ///             | bad_weight (u0 is outside of [0,1], and a weight may lose its sign) |

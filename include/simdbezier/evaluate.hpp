@@ -9,7 +9,8 @@
 //
 // Constraints that hold for every call
 //   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial (Parameters says how
-//               far). If one is nan or infinite, that sample's outputs are nan, no others.
+//               far). If a parameter is nan or infinite, the outputs of that sample are nan; others
+//               are not.
 //   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
 //               beyond that of T (64-byte alignment is faster).
 //   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 30 u without, at the
@@ -24,14 +25,15 @@
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
 //   Layouts     packed planes, packed triples and vertices without gaps are the fast ones. Planes
-//               of unit stride are written directly. So are triples and vertices without gaps on
-//               AVX2 and AVX-512, if edges are watertight and the set has no local origins. All
-//               others go by way of the first-level cache.
-//   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y by even and odd
-//               parts (degree_v 3, 4, 5: 3 products and 2 sums a component and pair of samples of
-//               bicubic patches) or by Horner's rule (any other: degree_v multiply-adds a sample).
-//               Edges are evaluated as rows are. Rational patches by the quotient rule.
-//   Source      docs/accuracy.md has the proofs, and names the papers that they stand on.
+//               of unit stride are written directly. Triples and vertices without gaps are written
+//               directly on AVX2 and AVX-512, if edges are watertight and the set has no local
+//               origins. All others go by way of the first-level cache.
+//   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x. In y, degrees 3, 4 and 5 are
+//               evaluated by even and odd parts: 3 products and 2 sums a component and pair of
+//               samples of bicubic patches. All other degrees take Horner's rule: degree_v
+//               multiply-adds a sample. Edges are evaluated as rows are. Rational patches are
+//               evaluated by the quotient rule.
+//   Source      docs/accuracy.md contains the proofs, and names the papers that they stand on.
 //   Statuses    ok, those of outputs and of running (Status), and what each call adds.
 //               bad_components: Outputs::first_component is outside of the set's, or a normal or a
 //               curvature is asked of a set without exactly three.
@@ -58,9 +60,10 @@ template <typename T>
                                              const Options& options = {}) noexcept;
 
 /// Evaluates every patch of a range on its own grid, with the bits of the call above on each patch
-/// alone. Threads share samples, even the rows of one patch. Outputs overlap if their ranges from
-/// index 0 to the last sample do. Allocation: 8 bytes a patch and scratch per thread. Also returns
-/// null_input | unequal_lengths | bad_grid | bad_offsets | bad_patch_range.
+/// alone. Threads share the samples, so that several of them may evaluate rows of one patch.
+/// Outputs overlap if their ranges from index 0 to the last sample overlap. Allocation: 8 bytes a
+/// patch and scratch per thread. Also returns null_input | unequal_lengths | bad_grid | bad_offsets
+/// | bad_patch_range.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const PatchGrids& grids,
                                              const Outputs<T>& out,
@@ -96,10 +99,11 @@ struct DerivativeOutputs {
 /// Outputs:  as in Outputs; they may not overlap the list of derivatives either. No derivative, or
 ///           one without pointers, is null_output. Options::destination has no effect.
 /// Edges:    derivatives along an edge come from that edge's control points alone, so that both
-///           sides have equal bits up to the sign of its direction. Where the halves of an edge of
-///           degree 6 or more meet, they agree only within the bounds.
-/// Bits:     orders that evaluate() has too have its bits, unless a result or a sum on the way
-///           leaves the normal range; (2,0) and (0,2) of rational patches agree within the bounds.
+///           sides have equal bits up to the sign of its direction. At the middle of an edge of
+///           degree 6 or more, where its halves meet, both sides agree only within the bounds.
+/// Bits:     a derivative that evaluate() computes as well has the same bits here, unless a result
+///           or a sum on the way leaves the normal range. For (2,0) and (0,2) of rational patches,
+///           both agree only within the bounds.
 /// Accuracy: docs/accuracy.md. What T cannot hold is infinite or nan.
 /// Source:   L. Piegl and W. Tiller, The NURBS Book, 2nd ed., A3.6 (computed in another way), A4.4.
 /// Cost:     A n (m + B) multiply-adds a component, A and B the highest orders asked for plus one;
@@ -130,8 +134,9 @@ enum class TileLayout : std::uint8_t {
 struct TileFormat {
   OutputSelection outputs = {Output::position}; ///< curvatures are planes in every layout
   TileLayout layout = TileLayout::planes;
-  /// The most samples in one tile; 0: what fits 24 KiB, half of a usual first-level cache. A tile
-  /// holds whole patches if one fits, else whole rows of one patch, at least one.
+  /// The most samples in one tile. 0: as many as fit into 24 KiB, half of a usual first-level
+  /// cache. If a whole patch fits, a tile holds whole patches, else whole rows of one patch, at
+  /// least one.
   std::size_t samples = 0;
   int first_component = 0; ///< as in Outputs
 };

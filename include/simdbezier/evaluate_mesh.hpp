@@ -36,16 +36,16 @@ struct MeshOutputs {
 /// Evaluates the vertices that the patches of a range own; lay_out_mesh() says which these are.
 /// set:        the patches of the layout's topology, in the same order, with three components.
 /// out:        index 0 is MeshLayout::first_vertex() of the first patch of the range.
-/// Position:   on an edge and in a corner, that of the lowest patch there. If control points are
-///             equal, all others have the same position bit for bit.
+/// Position:   on an edge and in a corner, the position of the lowest patch there. If control
+///             points are equal, all other patches have the same position bit for bit.
 /// Normal:     the sum of the unit normals of all patches that have the vertex, in ascending order
-///             of patch and side or corner, over its length. Those of patches that the topology
-///             turned are reversed, zero ones add nothing.
-///             On an edge of two sides, a patch whose normals disagree with the first one's is left
-///             out unless it is turned. If the sum is shorter than 0.001 of the number of normals,
-///             the first normal stays.
-/// Order:      if patches are given in another order, positions stay, as long as control points
-///             are equal. So do normals at inner points and on edges of one side or two. Other
+///             of patch and side or corner, divided by its length. Normals of patches that the
+///             topology turned are reversed, and zero normals add nothing.
+///             On an edge of two sides, the second patch's normals are left out if they disagree
+///             with the first one's and turning has not made them agree. If the sum is shorter than
+///             0.001 of the number of normals, the first normal stays.
+/// Order:      if patches are given in another order, positions stay, as long as control points are
+///             equal. Normals at inner points and on edges of one side or two stay, too. Other
 ///             normals change by the rounding of their sum. docs/tessellation.md says what the
 ///             lowest patch decides.
 /// Returns:    ok | the statuses of outputs (bad_components: not three) and of running |
@@ -121,9 +121,12 @@ enum class VertexFormat : std::uint8_t {
     return 4;
   case VertexFormat::octahedral8:
     return 2;
-  default:
-    return 2 * components;
+  case VertexFormat::half:
+  case VertexFormat::unorm16:
+  case VertexFormat::snorm16:
+    break;
   }
+  return 2 * components;
 }
 
 /// Where one output goes, and how: that of vertex k at first + k * stride, in bytes.
@@ -160,9 +163,10 @@ struct FormattedOutputs {
 };
 
 /// Evaluates vertices as the call with MeshOutputs does, and formats them. All stores are plain.
-/// Octahedral: n / (|x| + |y| + |z|), whose lower half is folded over the upper one, is a point (s,
-///             t) of a square: rounded to the nearest q / 32 767 or q / 127. Source: Z. Cigolle et
-///             al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT, 2014.
+/// Octahedral: the point n / (|x| + |y| + |z|) lies on an octahedron. Its lower half is folded over
+///             the upper one, so that n becomes a point (s, t) of a square, which is rounded to the
+///             nearest q / 32 767 or q / 127. Source: Z. Cigolle et al., A Survey of Efficient
+///             Representations for Independent Unit Vectors, JCGT, 2014.
 /// Returns:    as that call; bad_components also for a format that an output does not have,
 ///             bad_tolerance for a box without a step.
 template <typename T>

@@ -36,12 +36,12 @@ template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const CurveSet<T>& set, std::span<double> out,
                                                     const RunOptions& options = {}) noexcept;
 
-/// Chooses the fewest uniform points, 2 or more, with which every curve and its polyline are within
-/// its tolerance of each other; CurveGrids::n takes them.
+/// Chooses the fewest uniform points, 2 or more, for each curve, so that the curve and its polyline
+/// are within the tolerance of each other. CurveGrids::n takes these numbers.
 /// Formula:  n segments deviate by at most max |C''| / (8 n^2), and max |C''| is at most degree
-///           (degree - 1) times the largest second difference of control points; for weights see
-///           docs/tessellation.md. If these are more than 4.5-fold apart, few segments are chosen,
-///           not always the fewest.
+///           (degree - 1) times the largest second difference of control points. For weights see
+///           docs/tessellation.md. If weights are more than 4.5-fold apart, few segments are
+///           chosen, but not always the fewest.
 /// points:   one value a curve, of any components. deviation: the certified distance, errors
 ///           included; one value a curve, or empty. Both are undefined on an error.
 /// Cost:     some 0.1 us a cubic. Allocation: none, except some control polygons per thread if

@@ -22,8 +22,9 @@
 
 namespace simdbezier {
 
-/// What a mesh shall be like. The members up to nv say how fine it is, and at least one of them is
-/// needed. The mesh keeps all that are given, but a grid (nu, nv) excludes the others (bad_grid).
+/// What a mesh shall be like. The members up to nv say how fine it is. At least one of them is
+/// needed, and the mesh keeps all that are given. But a grid (nu, nv) excludes the others
+/// (bad_grid).
 struct MeshOptions {
   RateOptions rates = {}; ///< a tolerance, a longest edge, an angle
   /// The tolerance as a share of the diagonal of the box of all control points.
@@ -41,8 +42,7 @@ struct MeshOptions {
   bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  /// Edges of this angle or more stay sharp, see split_creases(). 0: no vertex is that of two
-  /// patches.
+  /// Edges of this angle or more stay sharp, see split_creases(). 0: patches share no vertices.
   double crease_degrees = kUnlimited;
 
   bool normals = true;
@@ -139,12 +139,14 @@ template <typename T, typename S>
 [[nodiscard]] MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets,
                                     const MeshOptions& options) noexcept;
 
-/// Chooses rates and lays out again, for another tolerance, grid, crease or view of a model whose
-/// set and topology a plan has already: a slider that changes how fine a mesh is, or a camera.
+/// Chooses rates and lays out again, for a model whose set and topology a plan contains already.
+/// The tolerance, grid, crease or view may be another one. This suits a camera, or a slider that
+/// changes how fine a mesh is.
 /// nets:    those that the plan was made of, unchanged.
 /// plan:    its set, topology, errors and diagonal are read, so that a caller may fill them in as
-///          well. No patches were left out or cut (MeshPlan::patches is empty).
-/// options: those of topology, RateOptions::errors, drop_repeated, split_edges and local_origin do
+///          well. MeshPlan::patches has to be empty: no patches may have been left out or cut.
+/// options: topology, RateOptions::errors, drop_repeated, split_edges and local_origin are ignored,
+///          because the plan was made with values of its own.
 ///          not count: what the plan was made with holds.
 /// Returns: as choose_rates() and lay_out_mesh(); bad_topology for other nets, bad_rates if errors
 ///          are not one value a patch. On an error the plan keeps what is read, with the report and

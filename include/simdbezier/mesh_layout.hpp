@@ -30,9 +30,9 @@ struct PatchRates {
   std::span<const std::uint16_t> diagonals;
 };
 
-/// Cells of one zone share a diagonal. In u and in v a cell is low, high or, if the rate is odd and
-/// the cell lies across the patch's middle, middle. Bit 3 * zone_v + zone_u is set if the diagonal
-/// runs from (1,0) to (0,1).
+/// Cells of one zone share a diagonal. In u and in v, a cell lies in the low or the high half of
+/// the patch. If the rate is odd, one cell lies across the middle, and is `middle`. Bit 3 * zone_v
+/// + zone_u is set if the diagonal runs from (1,0) to (0,1).
 enum class Zone : std::uint8_t { low, high, middle };
 
 /// What a mesh consists of.
@@ -65,7 +65,7 @@ public:
   /// The vertex at point k, 0 to segments(), in the direction of the patch's own parameter.
   [[nodiscard]] SIMDBEZIER_API std::uint32_t along(std::size_t patch, PatchEdge edge,
                                                    std::uint32_t k) const noexcept;
-  /// The vertex at (i / cells_u, j / cells_v) inside of a patch: i and j neither 0 nor all cells.
+  /// The vertex at (i / cells_u, j / cells_v) inside of a patch: 0 < i < cells_u, 0 < j < cells_v.
   [[nodiscard]] SIMDBEZIER_API std::uint32_t inner(std::size_t patch, std::uint32_t i,
                                                    std::uint32_t j) const noexcept;
 
@@ -97,8 +97,9 @@ private:
 /// leave a gap. The lowest of the patches that share a vertex owns it, on its first edge. Vertices
 /// are numbered patch by patch: corners that the patch owns, inner points of its own edges (v0, v1,
 /// u0, u1, in the direction of its parameter), inner points row by row. Triangles with one vertex
-/// twice do not count: cells at sides that are points, or between neighbouring sides that are one
-/// edge, have fewer than two, and without separate_vertices() a patch may have none.
+/// twice do not count. Therefore cells at sides that are points, or between neighbouring sides that
+/// are one edge, have fewer than two triangles. Without separate_vertices(), a patch may have no
+/// triangles.
 /// Cost:    some 50 ns a patch. Allocation: about 40 bytes a patch and 8 an edge. Determinism: a
 ///          function of the topology and the rates.
 /// Returns: ok | bad_rates (not one value a patch, or outside of 1 to kMostSegments) |
@@ -123,9 +124,11 @@ private:
 
 /// Writes three numbers a triangle; MeshLayout::size() says how many triangles there are.
 /// options: Destination::automatic streams numbers that take more than half of the last-level
-///          cache, without a measurement; SIMDBEZIER_DESTINATION counts. Any alignment will do.
-/// patches: all of them, or some: the first number is that of MeshLayout::first_triangle() of the
-///          first patch. bad_patch_range if the layout has no such patches.
+///          cache, without a measurement, unless SIMDBEZIER_DESTINATION decides. Any alignment will
+///          do.
+/// patches: all of them, or some. The first triangle written then has the number
+///          MeshLayout::first_triangle() of the first patch. bad_patch_range if the layout has no
+///          such patches.
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
                                                     std::span<Index> triangles,
@@ -202,15 +205,16 @@ struct ClusterOutputs {
                                                    const RunOptions& options = {},
                                                    SetRange patches = {}) noexcept;
 
-// Parts of a model that several processes work on, each with some of its patches;
-// docs/guide/clusters.md has a program that works like this.
+// Parts of a model that several processes work on, each with some of its patches.
+// docs/guide/clusters.md describes a program that works like this.
 //
-// A part consists of patches of its own and of ghosts: all other patches that have a corner in a
-// place where an own one has a corner. Together, in the order of the whole model, they are a model
-// for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(), which give for own
-// patches what the whole model would give, bit for bit, but number vertices from 0 in each part. In
-// the whole mesh, the numbers of a part begin behind all vertices that the parts before it own.
-// Those parts also tell where the vertices of ghosts begin (PatchVertices).
+// A part consists of its own patches and of ghosts. Ghosts are all other patches that have a corner
+// in a place where a patch of the part's own has one. Together, in the order of the whole model,
+// they are a model for find_topology(), lay_out_mesh(), evaluate_mesh() and write_triangles(). For
+// the part's own patches, these calls give what the whole model would give, bit for bit. Only the
+// numbers of vertices differ: they begin at 0 in each part. In the whole mesh, the numbers of a
+// part follow those of all vertices that the parts before it own. These parts also tell where the
+// vertices of ghosts begin (PatchVertices).
 //
 // Rates depend on the patch and on diagonals that the topology forces. A part that contains all
 // neighbours of a patch knows both, unless the patch is entangled (Topology::is_entangled()). Take
@@ -248,9 +252,9 @@ struct PatchVertices {
   std::uint64_t edges[4] = {kUnknownVertex, kUnknownVertex, kUnknownVertex, kUnknownVertex};
 };
 
-/// Tells where the vertices of own patches begin, for the parts that have these as ghosts.
-/// part:    of lay_out_mesh(), split_creases() or split_parameters(). own: the part's own patches;
-///          their numbers are those of the part, plus `first_vertex`, less that of the first one.
+/// Tells where the vertices of a part's own patches begin, for the parts that have these as ghosts.
+/// part:    of lay_out_mesh(), split_creases() or split_parameters(). own: the part's own patches.
+///          Vertex k of the part gets the number first_vertex + k - part.first_vertex(own.first).
 /// out:     one value for every own patch.
 /// Returns: ok | bad_patch_range | output_too_small. Allocation: none. Cost: some 10 ns a patch.
 [[nodiscard]] SIMDBEZIER_API Status owned_vertices(const MeshLayout& part, SetRange own,
@@ -260,8 +264,9 @@ struct PatchVertices {
 /// Finds the numbers of the whole mesh for the vertices of a part.
 /// part, own: as above. first_vertex: the number of the first vertex that an own patch owns.
 /// ghosts:    what owned_vertices() told about the patches before the own ones, one value each.
-/// numbers:   one value for every vertex below part.first_vertex(own.first + own.count).
-///            kUnknownVertex: it was not told; no own patch needs it if all ghosts are there.
+/// numbers:   one value for every vertex below part.first_vertex(own.first + own.count). A number
+///            that no ghost has told is kUnknownVertex; if all ghosts are there, own patches need
+///            no such number.
 /// Returns:   ok | bad_patch_range | unequal_lengths (ghosts) | output_too_small. Allocation: none.
 [[nodiscard]] SIMDBEZIER_API Status number_part(const MeshLayout& part, SetRange own,
                                                 std::uint64_t first_vertex,

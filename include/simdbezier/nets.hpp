@@ -3,10 +3,11 @@
 // Constraints that hold for every call
 //   Nets      any degrees from 1 to kMostDegree, any components. With weights the arithmetic is
 //             that of homogeneous coordinates (wx, wy, wz, w); the form of the nets stays.
-//   Outputs   belong to the caller. Count, components and weights are those of the input, the
-//             degrees what the operation says. They may not overlap the inputs or each other, but
-//             may be interleaved (four children of a patch side by side, for instance). Sorted by
-//             size, each stride must exceed what the smaller ones span.
+//   Outputs   belong to the caller. Count, components and weights are those of the input; each
+//             operation says which degrees they have. They may not overlap the inputs or each
+//             other, but may be interleaved (four children of a patch side by side, for instance).
+//             If the strides are sorted by size, each must be larger than what the smaller ones
+//             span.
 //   Faults    control values must be finite and weights positive; the first patch at fault is
 //             named. Values so large that the operation overflows come out infinite or nan.
 //   Bits      equal on all instruction sets (products and sums are rounded one by one, nothing is
@@ -136,7 +137,8 @@ using AtParameter = std::type_identity_t<UnitParameter<T>>;
 /// Parameters: finite (else non_finite_input). Outside of [0,1] they extrapolate; nets with weights
 ///             are then refused (bad_weight), because a weight could change its sign.
 /// Errors:     at most 3 degree_u u max|P| a component (u = 2^-24 or 2^-53) for parameters in
-///             [0,1]; with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
+///             [0,1]; with weights, the bound holds for numerators and for weights. At 0, 1/2 and 1
+///             only sums are rounded.
 /// Cost:       reading and writing the nets in cache; O(degree) times that for high degrees.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report split_u(const ControlNets<T>& nets, AtParameter<T> u,
@@ -173,7 +175,8 @@ struct SubPatch {
 ///                     Pieces that meet at one parameter get bit-equal points there, and [0, u] is
 ///                     what split_u() gives, except for u = 1: a whole direction is copied, while
 ///                     split_u() takes cartesian points to homogeneous ones and back.
-/// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); whole directions cost nothing.
+/// Parameters, errors: as split_u(). Cost: reading and writing the nets; O(degree^2) times that for
+/// high degrees. Whole directions cost nothing.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report segment(const ControlNets<T>& nets,
                                             const std::type_identity_t<SubPatch<T>>& piece,
@@ -205,8 +208,9 @@ template <typename T>
                                                 const std::type_identity_t<MutableNets<T>>& out,
                                                 const RunOptions& options = {}) noexcept;
 
-/// Reverses u, on the same surface: Q[j][i] = P[j][degree_u - i]. A copy; for calls that only read,
-/// the view reversed_u() is enough. Cost, as of the two below: reading and writing the nets.
+/// Reverses u, on the same surface: Q[j][i] = P[j][degree_u - i]. The result is a copy; for calls
+/// that only read, the view reversed_u() is enough. This call and the two below cost as much as
+/// reading and writing the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Report reverse_u(const ControlNets<T>& nets,
                                               const std::type_identity_t<MutableNets<T>>& out,
@@ -252,8 +256,8 @@ template <typename S>
 //
 // A net changes basis by P' = A P B^T, one matrix a direction. The matrices are exact (integers
 // over one denominator a row). Nets of float are carried in double and rounded once at the end;
-// nets of double are rounded after every sum. The result is exact if these sums are: for integer
-// control points of moderate size, and no denominator or one that divides the sum.
+// nets of double are rounded after every sum. The result is exact if the sums are exact, as for
+// integer control points of moderate size, and if every denominator divides its sum.
 //
 // The constraints of all calls hold here as well: outputs, faults, bits, zeros, threads, statuses.
 

@@ -60,23 +60,24 @@ enum class Isa : std::uint8_t {
 struct RunOptions {
   /// 1: the calling thread alone. Such a call starts no thread, enters no OpenMP region, and always
   /// returns. 0 or less: one thread for every 20 microseconds of estimated work, up to OpenMP's
-  /// default number (without OpenMP: the number of cores); inside of a parallel region the calling
-  /// thread alone. The estimate depends only on the shape of the call. If earlier calls of the same
-  /// thread have shown that their threads wait for cores that others use, it takes fewer for 0.1 to
-  /// 1.6 s, then tries again. Larger numbers: so many threads, but never more than the largest of
-  /// 16, two per core and OpenMP's default.
+  /// default number (up to the number of cores if the library has threads of its own). Inside of a
+  /// parallel region, the call stays on the calling thread. The estimate depends only on the shape
+  /// of the call. If earlier calls of the same thread have shown that their threads wait for cores
+  /// that others use, the call takes fewer threads; after 0.1 to 1.6 s, calls try more again.
+  /// Larger numbers: so many threads, but never more than the largest of these: 16, two per core,
+  /// OpenMP's default.
   ///
   /// If the system refuses OpenMP a thread (ulimit -u, a container's limit of processes, no memory
   /// for a stack), GNU's runtime prints a line on stderr and calls exit(1), which no library can
   /// prevent. Its pool does not survive fork() either: in a child of a process that has used
-  /// several threads, only calls with 1 return.
+  /// several threads, only calls with `threads` = 1 return.
   int threads = 0;
   Isa isa = Isa::automatic; ///< see resolve_isa(); calls that run no kernel ignore it
 };
 
 /// Where the outputs should end up. No choice changes a bit of them. Streaming stores bypass the
-/// caches: up to four times as fast to memory, depending on the machine, and much slower for
-/// whoever reads the result at once. They take effect for packed planes, packed triples and
+/// caches. Depending on the machine, they are up to four times as fast to memory, but reading the
+/// result at once is then much slower. They take effect for packed planes, packed triples and
 /// vertices without gaps, at any alignment of T.
 ///
 /// automatic is right for most callers. Outputs of up to half of the last-level cache, and

@@ -20,8 +20,8 @@ namespace simdbezier {
 /// The capacity of memory that is given by a pointer alone: the call trusts that it suffices.
 inline constexpr std::size_t kTrusted = static_cast<std::size_t>(-1);
 
-/// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride], with
-/// the stride in elements. All three null: not asked for. If made from spans, it knows its
+/// Where one vector-valued output goes: component c of sample k is the element k * stride behind
+/// the c-th pointer. All three null: not asked for. Vectors that are made from spans know their
 /// capacity, and calls with more samples return output_too_small.
 template <typename T>
 struct Vectors {
@@ -215,8 +215,8 @@ inline constexpr std::size_t kCurvatureKinds = static_cast<std::size_t>(Curvatur
 ///
 /// They have no error bound: they divide by |du x dv|^2, and lose digits if that is small
 /// (docs/accuracy.md has figures; float is of no use closer than 0.001 to a pole). Principal
-/// curvatures are computed from K and H^2. If those leave the range of T or sink below its smallest
-/// normal number, they are infinite, nan or have lost digits.
+/// curvatures are computed from K and H^2. If K or H^2 leaves the range of T, or sinks below its
+/// smallest normal number, principal curvatures are infinite, nan or have lost digits.
 /// Source: M. P. do Carmo, Differential Geometry of Curves and Surfaces, 3.3.
 template <typename T>
 struct Curvatures {

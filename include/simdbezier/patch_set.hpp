@@ -68,9 +68,10 @@ struct PackOptions {
   /// Each patch and each edge gets an origin of its own, which is added to positions last. Far from
   /// 0, the error is then 0.8 u max|P| instead of 2 u max|P|; near 0 it is at most one rounding
   /// more. The price is one addition a component and sample. This pays if the distance from 0 is
-  /// more than about four times the size of a patch. Beyond a hundred times the size it also saves
-  /// time for float normals of patches with weights: most are uncertain there, and exact decisions
-  /// about them take ten times as long. Both sides of a shared edge need the same choice.
+  /// more than about four times the size of a patch. Beyond a hundred times the size, it also saves
+  /// time for float normals of patches with weights. Without it, most of these are uncertain, and
+  /// exact decisions about them take ten times as long. Both sides of a shared edge need the same
+  /// choice.
   bool local_origin = false;
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. Use one point for all sets that share
@@ -93,16 +94,17 @@ struct PackOptions {
 ///             costs as much as a view of 8. Patches are numbered through all nets.
 /// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results
 ///             do not depend on the instruction set, threads or other patches. -0 becomes +0.
-/// Allocation: one block for each shape and form of weights: for bicubic patches in space 113 T and
-///             48 S a patch, since control points are kept; four times these and more if directions
-///             are cut. About 150 KiB of stack per thread.
+/// Allocation: one block for each shape and form of weights. A bicubic patch in space takes 113
+///             numbers of type T, and 48 of type S for its control points, which are kept. If
+///             directions are cut, a patch takes four times as much and more. About 150 KiB of
+///             stack per thread.
 /// Returns:    ok | the statuses of views | bad_components (also: not the same in all nets) |
 ///             bad_weight (also: below the smallest normal T, or infinite as T) | non_finite_input
 ///             | coefficient_overflow | size_overflow (also: strides that lead beyond addressable
 ///             memory) | unsupported_isa | out_of_memory. A wrong SIMDBEZIER_ISA is ignored. The
 ///             report names the lowest patch at fault; for a fault of whole nets, their first one.
-/// Cost:       in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch, by the
-///             cube of the degree; new memory costs several times that.
+/// Cost:       in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch. It grows
+///             with the cube of the degree. New memory costs several times as much.
 template <typename T, typename S>
 [[nodiscard]] Report pack(const ControlNets<S>& nets, PatchSet<T>& set,
                           const PackOptions& options = {}) noexcept;
@@ -123,8 +125,8 @@ extern template class PatchSet<double>;
 ///
 /// Other values extrapolate, as long as |2u-1| is below 2^64 (float) or 2^512 (double). Beyond
 /// that, multiples of the parameter's square are infinite, and directions of degree 3 to 5 give
-/// infinities or nan. Second derivatives by a parameter of degree 5 contain its cube, so that their
-/// limits are 2^43 and 2^341. Normals are never nan for any finite parameter.
+/// infinities or nan. In a direction of degree 5, second derivatives contain the parameter's cube,
+/// so that their limits are 2^43 and 2^341. Normals are never nan for any finite parameter.
 enum class Parameters : std::uint8_t { unit, centred };
 
 /// The centred parameter 2u-1 of a double u, computed in double and rounded once to T.

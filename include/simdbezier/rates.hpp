@@ -28,11 +28,11 @@ struct RateOptions {
   /// of the tolerance. choose_rates() needs position_errors() of the set that will be evaluated;
   /// plan_mesh() adds these by itself.
   std::span<const double> errors = {};
-  /// The longest edge of a cell, roughly: the longest leg of the control net times the degree, over
-  /// the number of cells, is at most this. Above 0, else bad_tolerance.
+  /// The longest edge of a cell, roughly. The longest leg of the control net times the degree,
+  /// divided by the number of cells, is at most this. Above 0, else bad_tolerance.
   double longest_edge = kUnlimited;
-  /// The largest angle between the normals at both ends of an edge of a cell, roughly: the total
-  /// turn of the net's normals, over the number of cells, is at most this. Above 0.
+  /// The largest angle between the normals at both ends of an edge of a cell, roughly. The total
+  /// turn of the net's normals, divided by the number of cells, is at most this. Above 0.
   double normal_degrees = kUnlimited;
   std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
   /// For views and models that move: on entry, CertifiedRates contain the rates of the frame
@@ -40,16 +40,16 @@ struct RateOptions {
   /// would be chosen, or up to `keep` times as many, so that rates change seldom. Below 1, or nan:
   /// no rates are read or kept. plan_mesh() ignores this member.
   double keep = 0;
-  /// For models that stay: fewer triangles, in more time. Wherever 1/1.6 of a patch's cells may be
-  /// enough, and about 1024 are, fewer cells are searched for with bounds on point sets. No patch
-  /// has more than by default. Gumbo has 43, 31 and 28 % fewer triangles at 1e-2, 1e-3 and 1e-4 of
-  /// its size, and octants of spheres have half of them. Rates take 2 to 8 us for each triangle
-  /// (AVX2), and up to 0.1 s a patch. The default is for models that move.
+  /// For models that stay: fewer triangles, in more time. If 1/1.6 of a patch's cells may be
+  /// enough, and these are not more than about 1024, fewer cells are searched for with bounds on
+  /// point sets. No patch has more cells than by default. Gumbo has 43, 31 and 28 % fewer triangles
+  /// at 1e-2, 1e-3 and 1e-4 of its size, and octants of spheres have half as many. Rates take 2 to
+  /// 8 us for each triangle (AVX2), and up to 0.1 s a patch. The default is for models that move.
   bool thorough = false;
 };
 
-/// A pinhole camera, or an orthographic one. The pinhole camera shows a point that is one unit away
-/// along the direction, and x units off it, x * focal_length pixels from the picture's middle.
+/// A pinhole camera, or an orthographic one. If a point is one unit away along the direction, and x
+/// units off it, the pinhole camera shows it x * focal_length pixels from the picture's middle.
 struct Camera {
   std::array<double, 3> eye = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
@@ -118,10 +118,11 @@ template <typename S>
 ///              than most_segments needed) | bad_topology (found for other nets, see fits()) |
 ///              snap_too_large (snapping has taken more than half of a tolerance) | the statuses of
 ///              running. The report names the patch. Outputs are undefined on an error.
-/// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch, 0.65 us in double. On AVX2, other
-///              degrees and forced diagonals take 1 to 4 us up to degree 5 and 15 us for degree 15,
-///              with weights 35 us, and up to 100 us more if these are products. Uneven parameters
-///              add 5 us a cell of a bicubic patch, up to a second. Certificates are included.
+/// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch, 0.65 us in double. On AVX2,
+///              patches of other degrees or with forced diagonals take 1 to 4 us up to degree 5,
+///              and 15 us for degree 15. With weights they take 35 us, and up to 100 us more if the
+///              weights are products. Uneven parameters add 5 us a cell of a bicubic patch, up to a
+///              second. Certificates are included.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<S>> nets,
                                                  const Topology& topology,

@@ -17,18 +17,19 @@
 //   Periodic  directions have n control points, which begin again after the last one, and n + 1
 //             knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i, t_(i+1)] depends
 //             on points i to i + p modulo n. No knots: t_i = i.
-//   Ranges    A part of the domain makes the first and the last piece end at values that need not
-//             be knots. Spans outside of it have no pieces.
+//   Ranges    are parts of the domain, whose ends need not be knots. The first and the last piece
+//             end there, and spans outside of a range have no pieces.
 //   Patches   are numbered along u first: patch iv * patches_u + iu.
 //   Error     Along one direction a control point is off by at most (m + 2) u max|d|, m = (p + 1) /
 //             2 rounded up and u = 2^-53; both directions add. Results in float are rounded once
 //             more. See docs/accuracy.md.
-//   Bits      Factors that are 1 copy points: clamped ends are control points bit for bit, and
-//             equal points give that point. Pieces on both sides of a knot that occurs up to p
-//             times have bit-equal points there. Two splines with equal control points and knots
-//             along an edge on which both are clamped have bit-equal points along it, whichever of
-//             u and v they call it, also if one runs the other way with exactly mirrored knots.
-//             Results do not depend on the instruction set, threads or other splines.
+//   Bits      Factors that are 1 copy points, so that clamped ends are control points bit for bit.
+//             Equal points give that point. Pieces on both sides of a knot that occurs up to p
+//             times have bit-equal points there. If two splines are clamped on an edge, and have
+//             equal control points and knots along it, their points along it are bit-equal,
+//             whichever of u and v they call it, also if one runs the other way with exactly
+//             mirrored knots. Results do not depend on the instruction set, threads or other
+//             splines.
 //   Weights   must be above 0; products w P are rounded once to double before anything else, and
 //             those that S cannot hold are coefficient_overflow.
 //   Faults    control values must be finite; the first surface and point at fault is named.
@@ -181,14 +182,14 @@ struct SplinePlaces {
   double* length_u = nullptr; ///< of the patch's interval: dS/dU = (dS/du) / length_u
   double* length_v = nullptr;
   /// The same parameters in [-1, 1], for Parameters::centred: ((U - a) - (b - U)) / (b - a) in the
-  /// interval [a, b]. Mirrored parameters of exactly mirrored knots give mirrored values, bit for
-  /// bit, which 2 u - 1 does not.
+  /// interval [a, b]. Unlike 2 u - 1, they are mirrored bit for bit if the parameters and the knots
+  /// are mirrored exactly.
   double* centred_u = nullptr;
   double* centred_v = nullptr;
 };
 
 /// Finds the patch and the local parameters of each (U[k], V[k]).
-/// Knots:    at an inner one the patch behind it (the right side), at the end the last one.
+/// Knots:    an inner knot belongs to the patch on its right side, the last knot to the last patch.
 /// Periodic: parameters outside of the period are moved by whole periods.
 /// U, V:     `count` values each, in any order, in the domain or range (else bad_range).
 /// Returns:  ok | bad_degree | bad_grid | null_input | bad_knots | bad_range | bad_tolerance |
@@ -220,13 +221,14 @@ template <typename S>
 /// surface: its knots, degrees and ranges are read, its points are not.
 /// set:     made by pack() or by way of to_bezier(); the surface's patches are those from
 ///          `first_patch` on (else bad_patch_range).
-/// U, V:    as locate() takes them, which also says which patch counts at a knot. Ascending ones
-///          are the fastest: those of one span are evaluated together.
+/// U, V:    as locate() takes them, which also says which patch counts at a knot. Ascending
+///          parameters are the fastest, because those of one span are evaluated together.
 /// out:     as in evaluate(), with its bits at the centred places of locate(), rounded to T.
-///          Derivatives are by U and V: divided by powers of the intervals' lengths, which are
-///          formed in double and rounded to T (0, infinite or nan if T cannot hold them).
-/// Bits:    exactly mirrored splines have bit-equal positions at mirrored parameters, and other
-///          outputs between knots; at a knot they take different sides.
+///          Derivatives are by U and V: they are divided by powers of the intervals' lengths, which
+///          are formed in double and rounded to T. If T cannot hold these, results are 0, infinite
+///          or nan.
+/// Bits:    exactly mirrored splines have bit-equal positions at mirrored parameters. Their other
+///          outputs are bit-equal between knots only: at a knot they come from different sides.
 /// Returns: what locate() and evaluate() return. Allocation: a few values for each of U and V.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API Report

@@ -72,8 +72,8 @@ public:
   [[nodiscard]] SIMDBEZIER_API bool is_turned(std::size_t patch) const noexcept;
   /// Whether a patch has all control points of an earlier one.
   [[nodiscard]] SIMDBEZIER_API bool is_repeated(std::size_t patch) const noexcept;
-  /// Whether a patch shares corners with another patch, or with itself, that no common edge
-  /// explains: separate_vertices() may have to raise its rates, depending on its neighbours.
+  /// Whether a patch shares corners with another patch, or with itself, without a common edge that
+  /// explains this. separate_vertices() may have to raise its rates, depending on its neighbours.
   [[nodiscard]] SIMDBEZIER_API bool is_entangled(std::size_t patch) const noexcept;
 
   /// This is for the library's own use.
@@ -89,10 +89,11 @@ private:
 /// as meshes need them. Corners are joined through edges, not by their positions: corners that
 /// touch only in a point stay apart. An edge may have any number of sides.
 /// nets:    any views with three components; patches are numbered through, view after view.
-/// Threads: distant corners, snapping, and repeated patches are work of a single one. Allocation:
-///          about 60 bytes a side. Determinism: a function of the control points and options.
-/// Cost:    some 0.2 to 0.7 us a patch; by the square of their number if thousands of patches have
-///          the same four edges, or nan among their values.
+/// Threads: a single one joins distant corners, snaps sides, and finds repeated patches.
+///          Allocation: about 60 bytes a side. Determinism: a function of the control points and
+///          options.
+/// Cost:    some 0.2 to 0.7 us a patch. If thousands of patches have the same four edges, or nan
+///          among their values, the cost grows with the square of their number.
 /// Returns: ok | the statuses of views (bad_components: not three) | bad_tolerance (a point_size or
 ///          snap below 0, or nan) | not_orientable (if `orient` is asked for) | size_overflow (2^29
 ///          patches and more) | out_of_memory.
@@ -118,7 +119,8 @@ struct DistinctNets {
 
 /// Leaves out the patches that Topology::is_repeated() names. What remains is a model of its own,
 /// for which find_topology() has to be called again, since its patches have other numbers.
-/// nets:    those of `topology`. Each patch that is left out ends a view.
+/// nets:    those of `topology`. A view ends before a patch that is left out, and another one
+///          begins behind it.
 /// Threads: one. Allocation: 4 bytes a patch, and the views. Cost: some nanoseconds a patch.
 /// Returns: ok | null_input (no list) | unequal_lengths (other number of patches) | out_of_memory.
 template <typename S>
@@ -200,7 +202,8 @@ struct SplitOptions {
   /// it. Roundings are allowed in any case: 64 (n + 1) u of the largest coordinate of all control
   /// points, n being the largest degree and u = 2^-24 (float) or 2^-53 (double).
   double snap = 0;
-  /// No cut leads beyond so many patches and pieces. 0: 8 times the patches given, at least 512.
+  /// The most patches and pieces in all; cuts that lead to more are not made. 0: 8 times the
+  /// patches given, at least 512.
   std::size_t most_pieces = 0;
 };
 
@@ -240,15 +243,17 @@ struct SplitNets {
   SplitCounts counts;
 };
 
-/// Cuts patches at the corners that lie on their open sides, if the part of the side between two
-/// corners is the side of another patch. A cut divides the opposite side as well, and so all
-/// patches across it, up to an open side, a side that is a point, or the patch where it began. This
-/// is repeated until nothing is found. If nothing is cut, SplitNets::nets are those given.
-/// Gap:     a short edge counts as unjoined if a part of another edge is at most 1/32 of its size
-///          away, or if cuts for it would lead to more pieces than allowed.
-/// Cost:    a find_topology() each time, and microseconds for each open side in another one's box.
+/// Cuts patches at the corners of others that lie on their open sides, if the part of the side
+/// between two such corners is the side of another patch. A cut divides the opposite side as well.
+/// It therefore goes on through the patches across, until it comes to an open side, a side that is
+/// a point, or the patch where it began. This is repeated until nothing is found. If nothing is
+/// cut, SplitNets::nets are those given.
+/// Gap:     a short edge counts as unjoined if it stays open although a part of another edge is at
+///          most 1/32 of its size away, or if cuts for it would lead to more pieces than allowed.
+/// Cost:    that of find_topology() each time, and microseconds for each open side that lies in the
+///          box of another one.
 /// Returns: as find_topology(), and the statuses of segment() for patches that are to be cut. Nets,
-///          threads, allocation (and the pieces) and determinism are as there.
+///          threads and determinism are as there. Allocation: as there, and the pieces.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status split_edges(std::span<const ControlNets<S>> nets,
                                                 SplitNets<S>& split,

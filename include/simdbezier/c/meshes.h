@@ -23,7 +23,7 @@ SIMDBEZIER_API simdbezier_status
 simdbezier_write_triangles_u16(const simdbezier_mesh_layout* layout, uint16_t* triangles,
                                size_t length, const simdbezier_primitive_options* options);
 
-// polygon_size(), write_polygons(): quads and triangles; sizes has 3 or 4 a polygon.
+// polygon_size(), write_polygons(): quads and triangles; sizes contains a 3 or 4 for each polygon.
 SIMDBEZIER_API simdbezier_status
 simdbezier_polygon_size(const simdbezier_mesh_layout* layout, size_t* polygons, size_t* indices,
                         const simdbezier_primitive_options* options);
@@ -57,7 +57,7 @@ typedef struct simdbezier_cluster {
   uint32_t patch;
 } simdbezier_cluster;
 
-// cluster_size(), write_clusters(): corners has three values a triangle.
+// cluster_size(), write_clusters(): corners contains three values a triangle.
 SIMDBEZIER_API simdbezier_status
 simdbezier_cluster_size(const simdbezier_mesh_layout* layout, size_t* clusters, size_t* vertices,
                         size_t* triangles, const simdbezier_primitive_options* options);
@@ -66,7 +66,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_write_clusters(
     uint32_t* vertices, size_t vertices_length, uint8_t* corners, size_t corners_length,
     const simdbezier_primitive_options* options);
 
-// MeshOutputs: u as x and v as y of `parameters`.
+// MeshOutputs. The x of `parameters` is u, and its y is v.
 typedef struct simdbezier_mesh_outputs {
   size_t struct_size;
   simdbezier_vectors position;
@@ -96,8 +96,8 @@ SIMDBEZIER_API simdbezier_status simdbezier_split_creases(const simdbezier_patch
 SIMDBEZIER_API simdbezier_status simdbezier_split_parameters(const simdbezier_mesh_layout* layout,
                                                              simdbezier_mesh_layout** split);
 
-// MeshOptions. How fine the mesh is has to be said: by a tolerance, by pixels, by a longest edge,
-// by an angle between normals, or by a grid.
+// MeshOptions. One member at least has to say how fine the mesh is: a tolerance, pixels, a longest
+// edge, an angle between normals, or a grid.
 typedef struct simdbezier_mesh_options {
   size_t struct_size;
   double tolerance;          // 0: none, as below
@@ -163,7 +163,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* me
 
 typedef struct simdbezier_mesh_plan simdbezier_mesh_plan;
 
-// PatchPiece: the part of a given patch that a patch of the set is.
+// PatchPiece: which part of a given patch one patch of the set is.
 typedef struct simdbezier_patch_piece {
   uint32_t patch;
   double u0;
@@ -205,7 +205,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mes
 
 // Vertices of a mesh in the formats that graphics processors and glTF read.
 
-// VertexFormat, which says how far what is stored is from the vertex's own value.
+// VertexFormat: evaluate_mesh.hpp says how far a stored value is from the vertex's own value.
 typedef int32_t simdbezier_vertex_format;
 enum {
   SIMDBEZIER_FORMAT_FLOAT32,

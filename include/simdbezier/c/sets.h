@@ -62,8 +62,8 @@ typedef struct simdbezier_control_curves {
   simdbezier_scalar scalar;
 } simdbezier_control_curves;
 
-// Nets with all values side by side, u fastest, as many as there are points for. An incomplete one
-// counts, so that calls refuse it.
+// Nets with all values side by side, u fastest: as many nets as `points` contains. An incomplete
+// last one counts; calls then refuse it.
 #define SIMDBEZIER_PACKED_OF(kind, Void)                                                           \
   static inline simdbezier_##kind simdbezier_packed_##kind##_of(                                   \
       Void* points, size_t length, int32_t degree_u, int32_t degree_v, int32_t components,         \
@@ -140,7 +140,8 @@ typedef struct simdbezier_pack_options {
 typedef struct simdbezier_patch_set simdbezier_patch_set;
 typedef struct simdbezier_curve_set simdbezier_curve_set;
 
-// pack(): a set whose results have the type `scalar`; all nets have one type, which may differ.
+// pack(): a set whose results have the type `scalar`. All nets have one type, and this may be
+// another one.
 SIMDBEZIER_API simdbezier_status simdbezier_pack(const simdbezier_nets* nets, size_t length,
                                                  simdbezier_scalar scalar,
                                                  const simdbezier_pack_options* options,
@@ -200,8 +201,8 @@ simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch, sim
 SIMDBEZIER_API simdbezier_status
 simdbezier_curve_error_bounds(const simdbezier_curve_set* set, size_t curve, simdbezier_isa isa,
                               simdbezier_error_bounds_of_curve* bounds);
-// largest_position_bound(), position_errors(). Errors are one value a patch or a curve; of their
-// options, threads and isa count.
+// largest_position_bound(), position_errors(). Errors are one value a patch or a curve. Of the
+// options, these calls read threads and isa only.
 SIMDBEZIER_API simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* set,
                                                                    simdbezier_isa isa,
                                                                    double* bound);

@@ -113,7 +113,8 @@ SIMDBEZIER_API int simdbezier_fuses_multiply_add(simdbezier_isa isa);
 SIMDBEZIER_API simdbezier_status simdbezier_resolve_isa(simdbezier_isa requested,
                                                         simdbezier_isa* chosen);
 
-// take_executed_isa(): what ran this thread's last call that evaluated; automatic: none since.
+// take_executed_isa(): the instruction set that ran this thread's last call that evaluated;
+// automatic: there was none since the last question.
 SIMDBEZIER_API simdbezier_isa simdbezier_take_executed_isa(void);
 
 // Destination of options.hpp.
@@ -129,8 +130,8 @@ typedef struct simdbezier_options {
   simdbezier_destination destination;
 } simdbezier_options;
 
-// Vectors of outputs.hpp: component c of sample k is c-th pointer [k * stride], all strides
-// positive. All zero: not asked for.
+// Vectors of outputs.hpp: component c of sample k is the element k * stride behind the c-th
+// pointer. All strides are positive. All zero: not asked for.
 typedef struct simdbezier_vectors {
   void* x;
   void* y;
@@ -147,7 +148,8 @@ typedef struct simdbezier_values {
   simdbezier_scalar scalar;
 } simdbezier_values;
 
-// Below: `length` elements are behind the pointer. Records of which too few fit have no room.
+// In the functions below, `length` counts the elements behind the pointer. This one says for how
+// many records they have room; it is 0 if not even one fits.
 static inline size_t simdbezier_records(size_t length, size_t members, ptrdiff_t stride) {
   return length < members || stride <= 0 ? 0 : (length - members) / (size_t)stride + 1;
 }
