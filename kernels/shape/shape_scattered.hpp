@@ -258,6 +258,16 @@ SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShap
   }
 }
 
+/// Asks for what is read of the samples that come soon. They lie in order, but prefetchers do not
+/// follow them between the lines of random patches.
+template <typename T>
+SIMDBEZIER_PART void prefetch_places(const ScatteredTask<T>& task, std::size_t k) {
+  constexpr std::size_t kAhead = 128;
+  prefetch_line(task.u + k + kAhead);
+  prefetch_line(task.v + k + kAhead);
+  prefetch_line(task.patch + k + kAhead + 64); // prefetch_sample() reads it before
+}
+
 /// Evaluates samples [k, k + count), as SampleLanes has them.
 template <typename P, typename V>
 SIMDBEZIER_PART void evaluate_block(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
@@ -394,6 +404,9 @@ SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
   const NetShape shape = P::shape(*task.shape);
   for (std::size_t k = 0; k < task.count; k += kN) {
     const std::size_t count = task.count - k < kN ? task.count - k : kN;
+    if (task.prefetch) {
+      prefetch_places(task, k);
+    }
     if constexpr (P::kKnown) {
       if constexpr (P::kDepth == 0 && !P::kWeighted) {
         if (task.out[output_index(Output::position)].wanted() && evaluate_two(task, k)) {
