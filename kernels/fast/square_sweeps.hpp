@@ -70,11 +70,13 @@ constexpr bool kIsStagedStream = (kSide <= kLanes<vec<T>> + 1) &&
                                   (kOutputs == detail::kPositionDerivatives));
 
 /// Whether straight code pays for them on some machine: not where roots set the pace, nor for
-/// derivatives of many registers a row, which are faster side by side, in bands.
+/// derivatives of many registers a row, which are faster side by side, in bands. Of two registers
+/// of a line and a column, they are as fast.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
 constexpr bool kIsStraight = kOutputs == detail::kPositionNormal ? kSide % 16 != 0
                              : kOutputs == detail::kPositionDerivatives
-                                 ? kSide <= (kLineWide<vec<T>> ? 4 : 2) * kLanes<vec<T>> + 1
+                                 ? kSide <= (kLineWide<vec<T>> ? 1 : 2) * kLanes<vec<T>> + 1 ||
+                                       (kLineWide<vec<T>> && kSide % 16 == 0)
                                  : true;
 
 /// Whether straight code pays only if stores across lines are cheap: if rows have a column or a

@@ -263,9 +263,11 @@ SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShap
 template <typename T>
 SIMDBEZIER_PART void prefetch_places(const ScatteredTask<T>& task, std::size_t k) {
   constexpr std::size_t kAhead = 128;
-  prefetch_line(task.u + k + kAhead);
-  prefetch_line(task.v + k + kAhead);
-  prefetch_line(task.patch + k + kAhead + 64); // prefetch_sample() reads it before
+  if (k + kAhead < task.count) {
+    prefetch_line(task.u + k + kAhead);
+    prefetch_line(task.v + k + kAhead);
+    prefetch_line(task.patch + k + kAhead);
+  }
 }
 
 /// Evaluates samples [k, k + count), as SampleLanes has them.
