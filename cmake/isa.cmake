@@ -175,10 +175,16 @@ function(simdbezier_add_kernel_objects row)
   simdbezier_isa_flags(${row_name} flags)
   string(TOUPPER ${row_name} upper)
   set(object simdbezier_kernels_${row_name})
-  set(sources bicubic_kernels.cpp shape_f32_kernels.cpp shape_f64_kernels.cpp curve_kernels.cpp
-              net_kernels.cpp mesh_kernels.cpp)
-  list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
-  add_library(${object} OBJECT ${sources})
+  set(folder ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels)
+  set(shape_sources ${folder}/shape_f32_kernels.cpp ${folder}/shape_f64_kernels.cpp)
+  add_library(${object} OBJECT ${folder}/bicubic_kernels.cpp ${shape_sources}
+              ${folder}/curve_kernels.cpp ${folder}/net_kernels.cpp ${folder}/mesh_kernels.cpp)
+  # g++ spends most of the time of these two on the question whether a store changes what a later load
+  # reads. With a seventh of its limit for that, they take a tenth less, at the same speed
+  # (390 rows of grids on a Zen 5: 0.999 by geometric mean).
+  set_source_files_properties(
+    ${shape_sources} PROPERTIES
+    COMPILE_OPTIONS $<$<CXX_COMPILER_ID:GNU>:--param=sccvn-max-alias-queries-per-access=150>)
   # Alone even where other sources are compiled several as one: the longest ones of a build must run
   # side by side.
   set_target_properties(${object} PROPERTIES UNITY_BUILD OFF)
