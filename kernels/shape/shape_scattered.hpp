@@ -406,9 +406,7 @@ SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
   const NetShape shape = P::shape(*task.shape);
   for (std::size_t k = 0; k < task.count; k += kN) {
     const std::size_t count = task.count - k < kN ? task.count - k : kN;
-    if (task.prefetch) {
-      prefetch_places(task, k);
-    }
+    prefetch_places(task, k);
     if constexpr (P::kKnown) {
       if constexpr (P::kDepth == 0 && !P::kWeighted) {
         if (task.out[output_index(Output::position)].wanted() && evaluate_two(task, k)) {
