@@ -137,6 +137,7 @@ const MORE_OPTIONS = [
   [{ relative: 1e-3, normals: false, orient: true, flip: true, snap: 1e-3 },
     ['--relative', '1e-3', '--no-normals', '--orient', '--flip', '--snap', '1e-3']],
 ];
+const QUANTISED = [8, 16].map((bits) => [{ relative: 1e-3, bits }, ['--relative', '1e-3', '--quantise', String(bits)]]);
 const readable = ['bpt', 'bv', 'iges', 'itd', 'obj', 'rib'].map((format) => join(source ?? '', 'tests/data', `sample.${format}`));
 const models = ['teapot.bpt', 'teapot28.bez', 'teacup.bez', 'teaspoon.bez', 'gumbo.bez', 'wavy_cube.bez', 'bigguy.bez.gz', 'pawn2.bez.gz', 'car4.bez.gz'].map((name) => join(data ?? '', name));
 const cases = [['builtin:teapot', [...OPTIONS, ...MORE_OPTIONS], ['f32', 'f64']],
@@ -150,7 +151,7 @@ for (const [path, options, precisions] of cases) {
     for (const precision of precisions) {
       const set = builtin ? teapot({ precision }) : await modules[precision].open(path, readFileSync(path), { precision });
       for (const format of ['glb', 'ply']) {
-        for (const [wish, words] of options) {
+        for (const [wish, words] of format === 'glb' ? [...options, ...QUANTISED] : options) {
           const out = join(folder, `mesh.${format}`);
           execFileSync(program, ['tessellate', path, ...words, '--precision', precision, '-o', out],
             { env: { ...process.env, SIMDBEZIER_ISA: 'sse2' } });
