@@ -5,6 +5,15 @@
 
 namespace simdbezier::detail {
 
+/// Looks at all values instead of stopping at the first other one, so that it can be vectorised.
+static bool all_equal(std::span<const std::uint32_t> values) noexcept {
+  std::uint32_t differences = 0;
+  for (const std::uint32_t value : values) {
+    differences |= value ^ values[0];
+  }
+  return differences == 0;
+}
+
 Status CountedGrids::count() noexcept {
   if (!equal_lengths_) {
     return Status::unequal_lengths;
@@ -16,12 +25,15 @@ Status CountedGrids::count() noexcept {
   if (size() >= static_cast<std::size_t>(-1) / sizeof(std::size_t)) {
     return Status::size_overflow;
   }
-  before_.reset(new (std::nothrow) std::size_t[size() + 1]);
+  of_one_size_ = size() > 1 && given_offset_.empty() && all_equal(nu_) && all_equal(nv_);
+  const std::size_t sizes = of_one_size_ ? 1 : size();
+  before_.reset(new (std::nothrow) std::size_t[sizes + 1]);
   if (before_ == nullptr) {
     return Status::out_of_memory;
   }
-  before_[0] = 0;
-  for (std::size_t k = 0; k < size(); ++k) {
+  std::size_t total = 0; // in a register: members might change with every store to before_
+  for (std::size_t k = 0; k < sizes; ++k) {
+    before_[k] = total;
     const std::size_t columns = nu(k);
     const std::size_t rows = nv(k);
     if (columns < 2 || (rows < 2 && !rows_of_one_)) {
@@ -31,7 +43,7 @@ Status CountedGrids::count() noexcept {
       return Status::size_overflow;
     }
     const std::size_t samples = columns * rows; // of two 32-bit values
-    if (__builtin_add_overflow(before_[k], samples, &before_[k + 1])) {
+    if (__builtin_add_overflow(total, samples, &total)) {
       return Status::size_overflow;
     }
     least_nu_ = std::min(least_nu_, columns);
@@ -46,7 +58,9 @@ Status CountedGrids::count() noexcept {
       }
     }
   }
-  return Status::ok;
+  before_[sizes] = total;
+  const bool too_many = of_one_size_ && __builtin_mul_overflow(total, size(), &total);
+  return too_many ? Status::size_overflow : Status::ok;
 }
 
 } // namespace simdbezier::detail

@@ -39,11 +39,13 @@ public:
   [[nodiscard]] std::size_t nu(std::size_t k) const noexcept { return nu_[k]; }
   [[nodiscard]] std::size_t nv(std::size_t k) const noexcept { return rows_of_one_ ? 1 : nv_[k]; }
   /// Samples in the grids before this one, counted without gaps; total() for k = size().
-  [[nodiscard]] std::size_t before(std::size_t k) const noexcept { return before_[k]; }
-  [[nodiscard]] std::size_t total() const noexcept { return before_[size()]; }
+  [[nodiscard]] std::size_t before(std::size_t k) const noexcept {
+    return of_one_size_ ? k * before_[1] : before_[k];
+  }
+  [[nodiscard]] std::size_t total() const noexcept { return before(size()); }
   /// The index of its first sample in the caller's memory.
   [[nodiscard]] std::size_t offset(std::size_t k) const noexcept {
-    return given_offset_.empty() ? before_[k] : given_offset_[k];
+    return given_offset_.empty() ? before(k) : given_offset_[k];
   }
   /// One more than the highest index.
   [[nodiscard]] std::size_t extent() const noexcept {
@@ -55,6 +57,9 @@ public:
 
   /// The grid that sample `sample`, counted without gaps, is part of.
   [[nodiscard]] std::size_t grid_of(std::size_t sample) const noexcept {
+    if (of_one_size_) {
+      return sample / before_[1];
+    }
     const std::size_t* const first = before_.get();
     return static_cast<std::size_t>(std::upper_bound(first, first + size(), sample) - first - 1);
   }
@@ -63,6 +68,9 @@ public:
   /// sample `end` and lie one behind the other in the caller's memory. 1 where there are no others.
   [[nodiscard]] std::size_t alike(std::size_t k, std::size_t end, std::size_t most) const noexcept {
     const std::size_t samples = nu(k) * nv(k);
+    if (of_one_size_) {
+      return std::max<std::size_t>(std::min({most, size() - k, (end - before(k)) / samples}), 1);
+    }
     std::size_t count = 1;
     while (count < most && k + count < size() && nu(k + count) == nu(k) && nv(k + count) == nv(k) &&
            before(k + count + 1) <= end && offset(k + count) == offset(k) + count * samples) {
@@ -84,7 +92,8 @@ private:
   std::span<const std::size_t> given_offset_;
   bool rows_of_one_ = false;
   bool equal_lengths_;
-  std::unique_ptr<std::size_t[]> before_;
+  bool of_one_size_ = false;              ///< all grids, which lie one behind the other
+  std::unique_ptr<std::size_t[]> before_; ///< of the first two where that is so
   std::size_t extent_ = 0;
   std::size_t least_nu_ = ~std::size_t(0);
   std::size_t most_nu_ = 0;

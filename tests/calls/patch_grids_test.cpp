@@ -116,6 +116,25 @@ protected:
     check(set, sizes, Offsets::gaps, {.threads = 2, .watertight = false});
   }
 
+  /// Grids of one size, whose places are not looked up; and all but one of them.
+  template <typename T>
+  void one_size() {
+    for (const std::size_t patches : {1U, 2U, 90U}) {
+      const PatchSet<T> set = packed<T>(mixed_nets(patches));
+      for (const std::uint32_t nu : {2U, 5U, 17U, 70U}) {
+        for (const std::uint32_t nv : {2U, 3U, 33U}) {
+          Sizes sizes{std::vector(patches, nu), std::vector(patches, nv), {}};
+          for (const int threads : kThreads) {
+            check(set, sizes, Offsets::none, {.threads = threads}, {.second = nu == 5});
+          }
+          check(set, sizes, Offsets::gaps, {.threads = 2});
+          ++(nu == 5 ? sizes.nu : sizes.nv).back();
+          check(set, sizes, Offsets::none, {.threads = 2});
+        }
+      }
+    }
+  }
+
   template <typename T>
   void windows() {
     const PatchSet<T> set = packed<T>(mixed_nets(12), {.local_origin = true});
@@ -177,11 +196,16 @@ TEST_P(PatchGridsTest, RandomGridsF32) { random_grids<float>(); }
 TEST_P(PatchGridsTest, RandomGridsF64) { random_grids<double>(); }
 TEST_P(PatchGridsTest, EverySmallSizeF32) { every_small_size<float>(); }
 TEST_P(PatchGridsTest, EverySmallSizeF64) { every_small_size<double>(); }
+TEST_P(PatchGridsTest, OneSizeF32) { one_size<float>(); }
+TEST_P(PatchGridsTest, OneSizeF64) { one_size<double>(); }
 TEST_P(PatchGridsTest, WindowsF32) { windows<float>(); }
 TEST_P(PatchGridsTest, WindowsF64) { windows<double>(); }
 TEST_P(PatchGridsTest, DensePatchF32) { dense_patch<float>(); }
 TEST_P(PatchGridsTest, LayoutsF32) { layouts<float>(random_sizes(13, 21, 4)); }
 TEST_P(PatchGridsTest, LayoutsF64) { layouts<double>(random_sizes(13, 21, 4)); }
+TEST_P(PatchGridsTest, LayoutsOfOneSizeF32) {
+  layouts<float>({std::vector(13, 9U), std::vector(13, 5U), {}});
+}
 TEST_P(PatchGridsTest, LayoutsOfLongRowsF32) { layouts<float>(random_sizes(7, 35, 6, 16)); }
 TEST_P(PatchGridsTest, LayoutsOfLongRowsF64) { layouts<double>(random_sizes(7, 35, 6, 8)); }
 INSTANTIATE_FOR_EVERY_ISA(PatchGridsTest);
@@ -261,6 +285,10 @@ TEST_F(PatchGridErrors, SizesThatOverflow) {
   }
   nu_[1] = nv_[1] = kMost;
   refuse(Status::size_overflow, {nu_, nv_});
+  const std::vector<std::uint32_t> equal(4, std::uint32_t{1} << 31); // 4 * 2^62 samples
+  set_ = packed<float>(mixed_nets(4));
+  refuse(Status::size_overflow, {equal, equal});
+  set_ = packed<float>(mixed_nets(3));
   const std::uint32_t small[3] = {2, 2, 2};
   const std::size_t far[3] = {0, 4, std::numeric_limits<std::size_t>::max() - 3};
   refuse(Status::size_overflow, {small, small, far});

@@ -136,21 +136,27 @@ TEST_P(CurveLayouts, FirstComponentChoosesThree) {
 
 TEST_P(CurveLayouts, CountsLeaveGapsUntouched) {
   const CurveSet<double> set = packed<double>(random_curves<double>(kCurves, 3, 3, 0, 6));
-  std::vector<std::uint32_t> counts;
-  std::vector<std::size_t> offsets;
-  std::size_t extent = 0;
-  for (std::size_t k = 0; k < kCurves; ++k) {
-    counts.push_back(static_cast<std::uint32_t>(2 + k * k % 23));
-    offsets.push_back(extent + k % 3);
-    extent = offsets.back() + counts.back();
-  }
-  for (const Destination destination : {Destination::cache, Destination::memory}) {
-    for (const int threads : {1, 2, 3}) {
+  for (const bool equal : {false, true}) {
+    std::vector<std::uint32_t> counts;
+    std::vector<std::size_t> offsets;
+    std::size_t extent = 0;
+    for (std::size_t k = 0; k < kCurves; ++k) {
+      counts.push_back(equal ? 17 : static_cast<std::uint32_t>(2 + k * k % 23));
+      offsets.push_back(extent + (equal ? 0 : k % 3));
+      extent = offsets.back() + counts.back();
+    }
+    const CurveGrids grids{counts, equal ? std::span<const std::size_t>() : offsets};
+    for (const auto& [destination, threads] : {std::pair{Destination::cache, 1},
+                                               {Destination::cache, 2},
+                                               {Destination::cache, 3},
+                                               {Destination::memory, 1},
+                                               {Destination::memory, 2},
+                                               {Destination::memory, 3}}) {
       CurveResults<double> results(extent, 3);
       CallOptions options;
       options.threads = threads;
       options.destination = destination;
-      evaluate(set, CurveGrids{counts, offsets}, results.outputs(), options);
+      evaluate(set, grids, results.outputs(), options);
       results.expect_guards();
       std::size_t written = 0;
       for (std::size_t k = 0; k < kCurves; ++k) {
