@@ -1,5 +1,5 @@
 // Compiled once per instruction set: kernels for patches of any shape, in floats.
-#include "kernels/shape/shape_table.hpp"
+#include "kernels/shape/shape_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

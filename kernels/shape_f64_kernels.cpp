@@ -1,7 +1,7 @@
 // Compiled once per instruction set: kernels for patches of any shape, in doubles, and what second
 // looks at normals begin with.
 #include "kernels/poly/normal_start.hpp"
-#include "kernels/shape/shape_table.hpp"
+#include "kernels/shape/shape_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

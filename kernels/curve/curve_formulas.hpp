@@ -129,11 +129,4 @@ SIMDBEZIER_INLINE V scaled_second(V d2) {
   return scaled_first<kMixed>(scaled_first<kMixed>(d2));
 }
 
-/// Returns |a x b|^2.
-template <typename V>
-SIMDBEZIER_INLINE V squared_cross(const V a[3], const V b[3]) {
-  V n[3];
-  return cross_product(a, b, n);
-}
-
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -92,7 +92,8 @@ SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
   }
   if (task.curvature != nullptr) {
     // |C' x C''| / |C'|^3 = |t x C''| / |C'|^2, whose squares have a smaller range.
-    const V bend = square_root(squared_cross(tangent, jet.d2));
+    V normal[3];
+    const V bend = square_root(cross_product(tangent, jet.d2, normal));
     range.store(task.curvature, divide(bend, squared));
   }
   // Parameters outside of the curve are as likely to find a small C' as any.

@@ -106,7 +106,7 @@ private:
   SIMDBEZIER_PART V position(const T* values, V x) const {
     const V coefficients = join_fours<kCurves, V>(values, stride_);
     V power[kOrderOfCubics];
-    split_fours(coefficients, power);
+    split_groups<4>(coefficients, power);
     const V inside = row_series<0>(Order<kOrderOfCubics>(kOrderOfCubics), x,
                                    [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return power[k]; })
                          .value;

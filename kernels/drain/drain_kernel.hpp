@@ -40,18 +40,6 @@ SIMDBEZIER_KERNEL void drain_nonuples(const DrainStream<T>& s, std::size_t steps
   drain_packed<kStreaming, 9>(s, steps);
 }
 
-/// Returns false where these registers do not put nine members together.
-template <typename T>
-SIMDBEZIER_INLINE bool drain_as_nonuples(const DrainStream<T>& s, std::size_t steps) {
-  if (!kNonuples || (s.streaming && !kNonupleLines)) {
-    return false;
-  }
-  if constexpr (kNonuples) {
-    s.streaming ? drain_nonuples<kNonupleLines>(s, steps) : drain_nonuples<false>(s, steps);
-  }
-  return true;
-}
-
 /// Passes on records of any length, at any distance.
 template <typename T>
 SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T* to,
@@ -60,18 +48,11 @@ SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T*
   for (; member + kGroupLanes<T> <= s.members; member += kGroupLanes<T>) {
     interleave_group<kGroupLanes<T>>(s.plane + member, at, to + member, stride);
   }
-  if constexpr (kGroupLanes<T> == 4) {
-    const std::size_t rest = s.members - member;
-    if (rest == 3) {
-      interleave_group<3>(s.plane + member, at, to + member, stride);
-    } else if (rest == 2) {
-      interleave_group<2>(s.plane + member, at, to + member, stride);
-    } else if (rest == 1) {
-      interleave_group<1>(s.plane + member, at, to + member, stride);
+  with_one_of<1, 2, 3>(s.members - member, [&]<std::size_t kRest>() SIMDBEZIER_INLINE_LAMBDA {
+    if constexpr (kRest < kGroupLanes<T>) {
+      interleave_group<kRest>(s.plane + member, at, to + member, stride);
     }
-  } else if (member < s.members) {
-    interleave_group<1>(s.plane + member, at, to + member, stride);
-  }
+  });
 }
 
 /// Passes on records without gaps by way of a buffer, so that they leave in whole lines. There are
@@ -112,7 +93,11 @@ SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
     s.streaming ? drain_packed<true, 3>(s, steps) : drain_packed<false, 3>(s, steps);
   } else if (s.members == 6 && packed) {
     s.streaming ? drain_packed<true, 6>(s, steps) : drain_packed<false, 6>(s, steps);
-  } else if (s.members != 9 || !packed || !drain_as_nonuples(s, steps)) {
+  } else if (kNonuples && s.members == 9 && packed && (kNonupleLines || !s.streaming)) {
+    if constexpr (kNonuples) {
+      s.streaming ? drain_nonuples<kNonupleLines>(s, steps) : drain_nonuples<false>(s, steps);
+    }
+  } else {
     s.streaming ? drain_buffered(s, steps) : drain_with_gaps(s, steps);
   }
 }

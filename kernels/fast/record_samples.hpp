@@ -8,19 +8,14 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The outputs of kOutputs that kernels put together, in the order of a record.
+/// The outputs of kOutputs that kernels put together, in the order of a record. Loops over them are
+/// written out: an index that is no constant would keep addresses in memory.
 template <detail::OutputSet kOutputs>
 struct RecordGroups {
   static constexpr bool kNormals = kOutputs == detail::kPositionNormal;
   static constexpr std::size_t kCount = kOutputs == detail::kPosition ? 1 : kNormals ? 2 : 3;
   static constexpr Output kOutput[3] = {Output::position, kNormals ? Output::normal : Output::du,
                                         Output::dv};
-
-  /// Calls f for each group. A loop, whose index is no constant, would keep addresses in memory.
-  template <typename F>
-  static SIMDBEZIER_INLINE void for_each(const F& f) {
-    repeat<kCount>(f);
-  }
 };
 
 /// Where the records of the next row go.
@@ -43,7 +38,7 @@ struct RecordPlaces {
       column_values = task.column_values + column;
       row_value = task.row_values + row;
     }
-    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+    repeat<Groups::kCount>([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       to[g] = task.out[output_index(Groups::kOutput[g])].component[0] + at * record;
     });
   }
@@ -74,12 +69,12 @@ struct RecordPlaces {
         return;
       }
     }
-    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+    repeat<Groups::kCount>([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       store_triples(value + 3 * g, to[g] + at, streaming);
     });
   }
   SIMDBEZIER_PART void next_row() {
-    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA { to[g] += step; });
+    repeat<Groups::kCount>([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA { to[g] += step; });
     row_value += column_values != nullptr ? 1 : 0;
   }
 };
@@ -179,7 +174,7 @@ struct RecordColumn {
   static SIMDBEZIER_PART std::size_t middle(std::size_t row) { return kLanes<V> + row; }
 
   SIMDBEZIER_PART void store(const V* value, std::size_t at) {
-    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+    repeat<Groups::kCount>([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       store_triples(value + 3 * g, triple[g] + 3 * at, false);
     });
   }
@@ -187,7 +182,7 @@ struct RecordColumn {
   /// `places`: the row's last sample.
   SIMDBEZIER_PART void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t at,
                                std::size_t row) const {
-    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+    repeat<Groups::kCount>([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       __builtin_memcpy(places.to[g] + at + kLanes<V> * places.record, triple[g] + 3 * row,
                        3 * sizeof(T));
     });

@@ -66,27 +66,28 @@ SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 
-/// In which lane of which register the samples of a small grid are computed. A code for every
+/// In which lane of which register the samples of small grids are computed. A code for every
 /// sample, row after row: 16 times the register plus the lane (see Assembly). Registers are inner,
 /// border and the four corners, in each group.
 class SmallGridSources {
 public:
-  constexpr SmallGridSources() = default;
-  constexpr SmallGridSources(std::size_t nu, std::size_t nv) {
-    for (std::size_t j = 0; j < nv; ++j) {
-      for (std::size_t i = 0; i < nu; ++i) {
-        codes_[j * nu + i] = static_cast<std::uint8_t>(code(i, nu, j, nv));
+  constexpr SmallGridSources() {
+    for (std::size_t nv = kLeastSmall; nv <= kMostSmall; ++nv) {
+      for (std::size_t nu = kLeastSmall; nu <= kMostSmall; ++nu) {
+        for (std::size_t k = 0; k < nu * nv; ++k) {
+          codes_[nv - kLeastSmall][nu - kLeastSmall][k] =
+              static_cast<std::uint8_t>(code(k % nu, nu, k / nu, nv));
+        }
       }
     }
   }
-  [[nodiscard]] constexpr const std::uint8_t* of_register(std::size_t k) const {
-    return codes_ + 16 * k;
+  [[nodiscard]] constexpr const std::uint8_t* of(std::size_t nu, std::size_t nv) const {
+    return codes_[nv - kLeastSmall][nu - kLeastSmall];
   }
 
 private:
   static constexpr std::size_t kBorder = 16;
   static constexpr std::size_t kCorners = 32;
-  static constexpr std::size_t kRegisters = (kMostSmall * kMostSmall + 15) / 16;
 
   static constexpr std::size_t code(std::size_t i, std::size_t nu, std::size_t j, std::size_t nv) {
     const bool on_u = i == 0 || i + 1 == nu;
@@ -99,32 +100,10 @@ private:
                         : 4 * (i - 1) + j - 1;
   }
 
-  std::uint8_t codes_[16 * kRegisters] = {};
+  std::uint8_t codes_[kMostInner][kMostInner][(kMostSmall * kMostSmall + 15) / 16 * 16] = {};
 };
 
-/// Those of all sizes.
-class SmallGridSizes {
-public:
-  constexpr SmallGridSizes() {
-    for (std::size_t nv = kLeastSmall; nv <= kMostSmall; ++nv) {
-      for (std::size_t nu = kLeastSmall; nu <= kMostSmall; ++nu) {
-        sources_[nv - kLeastSmall][nu - kLeastSmall] = {nu, nv};
-      }
-    }
-  }
-  [[nodiscard]] constexpr const SmallGridSources& of(std::size_t nu, std::size_t nv) const {
-    return sources_[nv - kLeastSmall][nu - kLeastSmall];
-  }
-
-private:
-  SmallGridSources sources_[kMostInner][kMostInner];
-};
-
-inline constexpr SmallGridSizes kSmallGrids;
-
-/// Whether registers have four groups of four lanes: floats of AVX-512.
-template <typename V>
-constexpr bool kFourGroups = kLanes<V> == 16;
+inline constexpr SmallGridSources kSmallGrids;
 
 /// The parameters of a small grid. Groups and lanes that are too many repeat the last edge.
 template <typename V>
@@ -159,10 +138,10 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
-  const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2);
+  const std::uint8_t* const sources = kSmallGrids.of(task.nu, grid.rows + 2);
   Assembly sample[kFull + 1];
   for (std::size_t k = 0; k <= kFull; ++k) {
-    sample[k] = Assembly(sources.of_register(k));
+    sample[k] = Assembly(sources + 16 * k);
   }
   const std::size_t rest = grid.samples - kFull * kLanes<V>;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
@@ -176,7 +155,7 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
       V e[kOrder];
       load_fours(component.matrix, k);
       load_fours(component.edge, e);
-      split_fours(horner(k, grid.x), q);
+      split_groups<4>(horner(k, grid.x), q);
       const V inner = row_value(q, grid.y);
       const V border = row_value(e, grid.along);
       const V corner = repeat_four<V>(component.corner);
@@ -193,13 +172,9 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
 template <typename T>
 SIMDBEZIER_PART void small_grid_positions(const GridTask<T>& task) {
   const std::size_t samples = task.nu * (task.runs[1].rows + 2);
-  if (samples <= 16) {
-    sweep_small_positions<0>(task);
-  } else if (samples <= 32) {
-    sweep_small_positions<1>(task);
-  } else {
-    sweep_small_positions<2>(task);
-  }
+  with_one_of<0, 1, 2>((samples - 1) / 16, [&]<std::size_t kFull>() SIMDBEZIER_INLINE_LAMBDA {
+    sweep_small_positions<kFull>(task);
+  });
 }
 
 #endif

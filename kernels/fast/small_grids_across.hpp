@@ -2,8 +2,8 @@
 //
 // Coefficients of a register of patches are turned on their way from memory, and samples on their
 // way back; in between no lane is idle, whatever the size of the grid. The last patches that do not
-// fill a register are computed together with some of those before them, once more. Positions stand
-// here, derivatives in fast/small_jets_across.hpp.
+// fill a register are computed together with some of those before them, once more. What positions
+// need stands here, all else in fast/small_jets_across.hpp.
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
@@ -173,7 +173,7 @@ SIMDBEZIER_PART void put_across(const V* sample, std::size_t samples, ScalarOf<V
                                 std::size_t step) {
   constexpr std::size_t kTogether = kQuad<V>;
   std::size_t k = 0;
-  if constexpr (kTurnsLines<V>) {
+  if constexpr (kLineWide<V>) {
     constexpr std::size_t kL = kLanes<V>;
     for (; k + kL <= samples; k += kL) {
       store_lines_across(sample + k, to + k, step);
@@ -226,22 +226,6 @@ SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& 
     sweep(done + fresh - kL, fresh);
     done += fresh;
   }
-}
-
-template <std::size_t kInner, typename T>
-SIMDBEZIER_KERNEL void sweep_positions_across(const GridTask<T>& shared_task) {
-  using V = vec<T>;
-  const GridTask<T> task = shared_task;
-  const SmallGridAcross<V, kInner> grid(task);
-  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
-    constexpr bool kApart = kTurnsLines<V> && kInner == 2; // more code is no faster
-    for_components<kApart>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-      V sample[kMostSmallSamples];
-      positions_across(ComponentAcross<V>(task, grid, patch, c), grid, sample);
-      put_across(task, Output::position, c, patch, sample, grid.samples());
-    });
-    drain_some(task.drain, fresh * 3 * grid.samples());
-  });
 }
 
 #endif

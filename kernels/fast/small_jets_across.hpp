@@ -1,5 +1,5 @@
-// Small grids whose lanes are patches (fast/small_grids_across.hpp): positions with first
-// derivatives or normals.
+// Small grids whose lanes are patches (fast/small_grids_across.hpp): first derivatives, normals,
+// and the sweep of all outputs.
 #pragma once
 
 #include "kernels/fast/small_grids_across.hpp"
@@ -59,23 +59,6 @@ struct JetsAcross {
   }
 };
 
-template <std::size_t kInner, typename T>
-SIMDBEZIER_KERNEL void sweep_derivatives_across(const GridTask<T>& shared_task) {
-  using V = vec<T>;
-  const GridTask<T> task = shared_task;
-  const SmallGridAcross<V, kInner> grid(task);
-  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
-    for (std::size_t c = 0; c < 3; ++c) {
-      JetsAcross<V> jets;
-      jets.find(ComponentAcross<V>(task, grid, patch, c), grid);
-      put_across(task, Output::position, c, patch, jets.p, grid.samples());
-      put_across(task, Output::du, c, patch, jets.du, grid.samples());
-      put_across(task, Output::dv, c, patch, jets.dv, grid.samples());
-    }
-    drain_some(task.drain, fresh * 9 * grid.samples());
-  });
-}
-
 /// Looks again at the normals of a register of patches that did not all pass the quick test.
 template <std::size_t kInner, typename V>
 SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
@@ -122,37 +105,54 @@ SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output
   }
 }
 
-template <std::size_t kInner, typename T>
-SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
+template <detail::OutputSet kOutputs, std::size_t kInner, typename T>
+SIMDBEZIER_KERNEL void sweep_across(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);
   for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
-    JetsAcross<V> jets[3];
-    for (std::size_t c = 0; c < 3; ++c) {
-      jets[c].find(ComponentAcross<V>(task, grid, patch, c), grid);
-    }
-    put_across(task, Output::position, patch, jets, grid.samples());
-    const V floor = load_vector<V>(task.normal_floor + patch);
-    V squared[kMostSmallSamples];
-    bool passed = true;
-    for (std::size_t k = 0; k < grid.samples(); ++k) {
-      NormalSamples<V> s;
+    if constexpr (kOutputs == detail::kPosition) {
+      constexpr bool kApart = kLineWide<V> && kInner == 2; // more code is no faster
+      for_components<kApart>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+        V sample[kMostSmallSamples];
+        positions_across(ComponentAcross<V>(task, grid, patch, c), grid, sample);
+        put_across(task, Output::position, c, patch, sample, grid.samples());
+      });
+    } else if constexpr (kOutputs == detail::kPositionDerivatives) {
       for (std::size_t c = 0; c < 3; ++c) {
-        s.jet[c] = {jets[c].p[k], jets[c].du[k], jets[c].dv[k]};
+        JetsAcross<V> jets;
+        jets.find(ComponentAcross<V>(task, grid, patch, c), grid);
+        put_across(task, Output::position, c, patch, jets.p, grid.samples());
+        put_across(task, Output::du, c, patch, jets.du, grid.samples());
+        put_across(task, Output::dv, c, patch, jets.dv, grid.samples());
       }
-      s.cross();
+    } else {
+      JetsAcross<V> jets[3];
       for (std::size_t c = 0; c < 3; ++c) {
-        jets[c].p[k] = s.normal[c];
+        jets[c].find(ComponentAcross<V>(task, grid, patch, c), grid);
       }
-      squared[k] = s.squared;
-      passed = passed && all_of<V>(s.squared > floor);
+      put_across(task, Output::position, patch, jets, grid.samples());
+      const V floor = load_vector<V>(task.normal_floor + patch);
+      V squared[kMostSmallSamples];
+      bool passed = true;
+      for (std::size_t k = 0; k < grid.samples(); ++k) {
+        NormalSamples<V> s;
+        for (std::size_t c = 0; c < 3; ++c) {
+          s.jet[c] = {jets[c].p[k], jets[c].du[k], jets[c].dv[k]};
+        }
+        s.cross();
+        for (std::size_t c = 0; c < 3; ++c) {
+          jets[c].p[k] = s.normal[c];
+        }
+        squared[k] = s.squared;
+        passed = passed && all_of<V>(s.squared > floor);
+      }
+      put_across(task, Output::normal, patch, jets, grid.samples());
+      if (!passed) [[unlikely]] {
+        resolve_normals_across(shared_task, grid, patch, squared, floor);
+      }
     }
-    put_across(task, Output::normal, patch, jets, grid.samples());
-    if (!passed) [[unlikely]] {
-      resolve_normals_across(shared_task, grid, patch, squared, floor);
-    }
-    drain_some(task.drain, fresh * 6 * grid.samples());
+    drain_some(task.drain, fresh * written_planes(kOutputs) * grid.samples());
   });
 }
 
@@ -204,17 +204,6 @@ SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
     }
   } else {
     return kOutputs == detail::kPosition || task.nu != kL;
-  }
-}
-
-template <detail::OutputSet kOutputs, std::size_t kInner, typename T>
-SIMDBEZIER_PART void sweep_across(const GridTask<T>& task) {
-  if constexpr (kOutputs == detail::kPosition) {
-    sweep_positions_across<kInner>(task);
-  } else if constexpr (kOutputs == detail::kPositionNormal) {
-    sweep_normals_across<kInner>(task);
-  } else {
-    sweep_derivatives_across<kInner>(task);
   }
 }
 

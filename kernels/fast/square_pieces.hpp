@@ -41,10 +41,6 @@ private:
     }
   }
 };
-struct NoSharedRows {
-  template <typename T>
-  explicit SIMDBEZIER_PART NoSharedRows(const T* /*y*/) {}
-};
 
 /// A whole grid of kSide x kSide samples, whose first and last rows are edges and whose others are
 /// pairs. The compiler knows its size, so that sweeps are straight code, without counting, tests
@@ -66,7 +62,7 @@ struct SquarePiece {
   } middle;
 
   static constexpr bool kTwoRows = kSide * 2 == kLanes<vec<T>>; ///< a register
-  std::conditional_t<kTwoRows, SharedRows<T, kSide, kLiesAcross>, NoSharedRows> shared;
+  std::conditional_t<kTwoRows, SharedRows<T, kSide, kLiesAcross>, Nothing> shared;
 
   explicit SIMDBEZIER_PART SquarePiece(const T* middle_y) : middle{middle_y}, shared(middle_y) {}
 

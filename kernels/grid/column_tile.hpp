@@ -61,11 +61,6 @@ struct SharedCorners {
   }
 };
 
-struct NoSharedCorners {
-  template <typename V>
-  explicit SIMDBEZIER_PART NoSharedCorners(V /*x*/) {}
-};
-
 template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams = false>
 struct ColumnTile {
   static_assert(!kStreams || (kRows == 1 && kWhole && !kExtra));
@@ -97,7 +92,7 @@ struct ColumnTile {
   std::size_t active; ///< columns of kColumns that exist
   bool watertight;
   Column<V, kTurnsColumns<V> && kWhole && !kSingle> column;
-  std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
+  std::conditional_t<kShared, SharedCorners<V>, Nothing> corners;
 
   SIMDBEZIER_PART ColumnTile(const T* x, std::size_t first_column, std::size_t active_columns,
                              bool own_edges)
@@ -121,7 +116,10 @@ struct ColumnTile {
     } else if (kWhole && rows == kRows) {
       store_vector(to, value);
     } else {
-      Groups::store_some(to, step, value, columns(), rows);
+      store_lanes_from<kColumns, 0>(to, value, columns());
+      if (rows > 1) {
+        store_lanes_from<kColumns, kColumns>(to + step, value, columns());
+      }
     }
     if constexpr (kExtra) {
       for (std::size_t r = 0; r < rows; ++r) {
@@ -188,13 +186,8 @@ struct ColumnTile {
     }
   }
   SIMDBEZIER_PART V edge_rows(const Component<T>& c, std::size_t edge) const {
-    if constexpr (!kShared) {
-      return edge_position(c, column, edge);
-    } else {
-      V k[kOrder];
-      shared_edges(c, k);
-      return finish(c, row_value(k, RowPoint<V>(column.x)));
-    }
+    V du; // takes no instruction where nothing reads it
+    return edge_rows(c, edge, du);
   }
   SIMDBEZIER_PART V edge_rows_second(const Component<T>& c, std::size_t edge) const {
     if constexpr (!kShared) {

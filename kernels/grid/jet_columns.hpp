@@ -26,15 +26,13 @@ SIMDBEZIER_PART Jet<V> edge_jet(const Component<ScalarOf<V>>& c, const SomeTile&
   return jet;
 }
 
-struct NoOrigin {};
-
 /// A register of columns as cubics in Y: one component's positions and u derivatives. kAsks says
 /// that origins are asked for at run time; there are none otherwise.
 template <typename V, bool kAsks = true>
 struct JetColumns {
   V q[kOrder];
   V dq[kOrder];
-  std::conditional_t<kAsks, LocalOrigin<V>, NoOrigin> origin;
+  std::conditional_t<kAsks, LocalOrigin<V>, Nothing> origin;
 
   template <typename SomeTile>
   SIMDBEZIER_PART void build(const Component<ScalarOf<V>>& c, const SomeTile& tile) {

@@ -19,31 +19,24 @@ struct SquareColumn {
   SIMDBEZIER_PART Plane plane(std::size_t k) const { return planes + k; }
 
   template <typename T, bool kAcross>
-  SIMDBEZIER_PART void find_position(const SquarePiece<T, kSide, kAcross>& piece,
-                                     const Component<T>& c, const SingleColumnTile<V>& tile) {
-    V q[kOrder];
-    tile_polynomial(c, tile, q);
-    planes[0].edges = tile.edge_rows(c, 0);
-    for (std::size_t row = 0; row < kSide - 2; row += kLanes<V>) {
-      const auto at = RowPowers<T>::template point<kLanes<V>, V>(piece.middle.y + row);
-      planes[0].middle[row / kLanes<V>] = row_value(q, at);
-    }
-  }
-  template <typename T, bool kAcross>
-  SIMDBEZIER_PART void find_derivatives(const SquarePiece<T, kSide, kAcross>& piece,
-                                        const Component<T>& c, const SingleColumnTile<V>& tile) {
+  SIMDBEZIER_PART void find(const SquarePiece<T, kSide, kAcross>& piece, const Component<T>& c,
+                            const SingleColumnTile<V>& tile) {
     JetColumns<V, false> columns;
     columns.build(c, tile);
     const Jet<V> edges = columns.edge(c, tile, 0);
     planes[0].edges = edges.p;
-    planes[1].edges = edges.du;
-    planes[2].edges = edges.dv;
+    if constexpr (kPlanes == 3) {
+      planes[1].edges = edges.du;
+      planes[2].edges = edges.dv;
+    }
     for (std::size_t row = 0; row < kSide - 2; row += kLanes<V>) {
       const auto at = RowPowers<T>::template point<kLanes<V>, V>(piece.middle.y + row);
       const Jet<V> jet = columns.interior(at);
       planes[0].middle[row / kLanes<V>] = jet.p;
-      planes[1].middle[row / kLanes<V>] = jet.du;
-      planes[2].middle[row / kLanes<V>] = jet.dv;
+      if constexpr (kPlanes == 3) {
+        planes[1].middle[row / kLanes<V>] = jet.du;
+        planes[2].middle[row / kLanes<V>] = jet.dv;
+      }
     }
   }
 };
@@ -156,18 +149,6 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
 template <typename Piece>
 constexpr bool kOwnStores = (Piece::kKnown) && !(Piece::kAcross);
 
-/// Calls f(0), f(1), f(2): each in code of its own, or in a loop.
-template <bool kApart, typename F>
-SIMDBEZIER_INLINE void for_components(const F& f) {
-  if constexpr (kApart) {
-    repeat<3>(f);
-  } else {
-    for (std::size_t c = 0; c < 3; ++c) {
-      f(c);
-    }
-  }
-}
-
 /// Sweeps positions and derivatives, component by component, of a tile and the column behind it.
 template <detail::OutputSet kOutputs, typename Piece, typename SomeTile, typename T>
 SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piece& piece,
@@ -193,11 +174,10 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
       T* const position = own_plane(task.out[output_index(Output::position)].component[c] + at);
       if constexpr (Piece::kAcross && SomeTile::kBuffered) {
         SquareColumn<V, Piece::rows(), kPlanes> behind;
+        behind.find(piece, component, column);
         if constexpr (kOutputs == detail::kPosition) {
-          behind.find_position(piece, component, column);
           sweep_position(piece, component, tile, nu, position, behind);
         } else {
-          behind.find_derivatives(piece, component, column);
           const JetPlanes<T> to{position, task.out[output_index(Output::du)].component[c] + at,
                                 task.out[output_index(Output::dv)].component[c] + at};
           sweep_derivatives(piece, component, tile, nu, to, behind);
@@ -222,6 +202,14 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
       component = component.next();
     });
   }
+}
+
+/// Returns the number of planes that a kernel writes.
+constexpr std::size_t written_planes(detail::OutputSet outputs) {
+  return outputs == detail::kPosition         ? 3
+         : outputs == detail::kPositionNormal ? 6
+         : outputs == detail::kAnyOutputs     ? 12
+                                              : 9;
 }
 
 /// Rarer outputs have tiles of whole and masked registers only, since code has a cost as well.

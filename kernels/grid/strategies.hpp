@@ -27,23 +27,11 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::GridStrategy;
 
-#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
-inline constexpr bool kWideKernels = true;
-#else
-inline constexpr bool kWideKernels = false;
-#endif
+inline constexpr bool kWideKernels = sizeof(vec<float>) >= 32;
 
 /// So many bytes of rarer outputs stay in the first-level cache while one tile follows the other;
 /// for others, GridTask has the number.
 constexpr std::size_t kCachedBytes = 12288;
-
-/// Returns the number of planes that a kernel writes.
-constexpr std::size_t written_planes(detail::OutputSet outputs) {
-  return outputs == detail::kPosition         ? 3
-         : outputs == detail::kPositionNormal ? 6
-         : outputs == detail::kAnyOutputs     ? 12
-                                              : 9;
-}
 
 /// Returns what a kernel writes of one patch.
 template <detail::OutputSet kOutputs, typename T>
@@ -52,13 +40,8 @@ SIMDBEZIER_PART std::size_t bytes_of(const GridTask<T>& task, const RowPiece<T>&
 }
 
 /// Whether small grids have kernels in which a register is four groups of four lanes.
-#if defined(SIMDBEZIER_KERNELS_AVX512)
 template <detail::OutputSet kOutputs, typename T>
-constexpr bool kInFourGroups = kUsual<kOutputs>&& kFourGroups<vec<T>>;
-#else
-template <detail::OutputSet kOutputs, typename T>
-constexpr bool kInFourGroups = false;
-#endif
+constexpr bool kInFourGroups = kUsual<kOutputs>&& kLanes<vec<T>> == 16;
 
 /// 4 x 4 samples, all components in one register.
 template <detail::OutputSet kOutputs, typename T>

@@ -21,22 +21,12 @@ struct NormalSamples {
   }
 };
 
-/// Calls f(0), f(1) and f(2). Where a loop indexes polynomials, compilers may keep them in memory:
-/// in WebAssembly, and g++ 12 for SSE2, to a sixth of the speed. Written out, doubles of AVX2 lose
-/// 8 %.
-template <typename F>
-SIMDBEZIER_INLINE void for_components(const F& f) {
-  if constexpr (kCompactShapes) {
-    repeat<3>(f);
-  } else {
-    for (std::size_t c = 0; c < 3; ++c) {
-      f(c);
-    }
-  }
-}
-
 /// What the rows of one tile have in common; kAny: groups with null planes are computed and
 /// dropped.
+///
+/// Where a loop over components indexes polynomials, compilers may keep these in memory: in
+/// WebAssembly, and g++ 12 for SSE2, to a sixth of the speed. Written out, doubles of AVX2 lose 8
+/// %.
 template <std::size_t kRows, bool kWhole, bool kExtra, bool kAny, bool kAsks, typename V,
           bool kStreams>
 struct NormalSweep {
@@ -59,8 +49,8 @@ struct NormalSweep {
         doubts(the_doubts), component{{the_task, the_patch, 0},
                                       component[0].next(),
                                       component[1].next()} {
-    for_components([&](std::size_t c)
-                       SIMDBEZIER_INLINE_LAMBDA { columns[c].build(component[c], tile); });
+    for_components<kCompactShapes>(
+        [&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA { columns[c].build(component[c], tile); });
   }
 
   SIMDBEZIER_PART void interior(const T* y, RowPlace place, std::size_t rows, V floor) const {
@@ -90,7 +80,7 @@ struct NormalSweep {
   /// Evaluates the edge v = const number `edge`, or both where they share a register.
   SIMDBEZIER_PART NormalSamples<V> edge(std::size_t edge) const {
     NormalSamples<V> s;
-    for_components([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+    for_components<kCompactShapes>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       s.jet[c] = columns[c].edge(component[c], tile, edge);
     });
     s.cross();

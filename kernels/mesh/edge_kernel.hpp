@@ -71,7 +71,7 @@ private:
     V k[kOrder];
     if constexpr (kHasFours<V>) { // all four powers of Y at once
       load_fours(c.matrix, k);
-      split_fours(horner_slope(k, across), dq);
+      split_groups<4>(horner_slope(k, across), dq);
     } else {
       for (std::size_t l = 0; l < kOrder; ++l) {
         matrix_column(c, l, k);

@@ -58,7 +58,7 @@ SIMDBEZIER_INLINE void for_each_value(const detail::NetView<S>& nets, std::size_
 template <typename V>
 inline constexpr std::size_t kBlock = sizeof(ScalarOf<V>) == sizeof(double) ? kTransposed
                                       : kIsScalar<V>                        ? 0
-                                      : kTurnsLines<V>                      ? kLanes<V>
+                                      : kLineWide<V>                        ? kLanes<V>
                                                                             : kQuad<V>;
 
 /// Loads group[k][p] = from[p * stride + k] + 0 for a block of k and all lanes p.

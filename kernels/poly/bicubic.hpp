@@ -19,7 +19,7 @@ struct Column {
   V x;
   PairSelector<V> edges;
   bool on_edge; ///< false: no lane is on an edge u = const
-  std::conditional_t<kTurns, TurnedColumns<V>, NoTurnedColumns> turned;
+  std::conditional_t<kTurns, TurnedColumns<V>, Nothing> turned;
 
   /// Where patches are not watertight, edges are as good as any column.
   SIMDBEZIER_INLINE Column(V half_centred, bool watertight)
@@ -145,7 +145,7 @@ SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
                                                 const Column<V, kTurns>& column, V q[kOrder]) {
   V k[kOrder];
   load_fours(c.matrix, k);
-  split_fours(horner(k, column.x), q);
+  split_groups<4>(horner(k, column.x), q);
   replace_edge_columns(c, column, q);
 }
 
@@ -156,8 +156,8 @@ SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
   V k[kOrder];
   load_fours(c.matrix, k);
   V slopes;
-  split_fours(horner(k, column.x, slopes), q);
-  split_fours(slopes, dq);
+  split_groups<4>(horner(k, column.x, slopes), q);
+  split_groups<4>(slopes, dq);
   replace_edge_columns(c, column, q);
 }
 
@@ -240,15 +240,7 @@ SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<
   return column.replace(value, c.corner + detail::corner_index(0, edge));
 }
 
-/// Returns the position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
-template <typename V, bool kTurns>
-SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
-                                  std::size_t edge) {
-  V k[kOrder];
-  edge_cubic(c, edge, k);
-  return finished_edge(c, column, edge, row_value(k, column.along()));
-}
-
+/// Returns the position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1), and du.
 template <typename V, bool kTurns>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
                                   std::size_t edge, V& du) {

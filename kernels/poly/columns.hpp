@@ -6,6 +6,7 @@
 #include "kernels/poly/even_odd.hpp"
 #include "kernels/simd/quads.hpp"
 #include "kernels/simd/register_pair.hpp"
+#include "kernels/simd/repeat.hpp"
 #include "src/storage/bicubic_layout.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -51,11 +52,6 @@ SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
 template <typename V>
 constexpr bool kTurnsColumns = kSse2&& kLanes<V> > (kSimd128 ? kLanes<vec<ScalarOf<V>>> : 1);
 
-struct NoTurnedColumns {
-  template <typename V>
-  SIMDBEZIER_INLINE NoTurnedColumns(V /*columns*/, bool /*watertight*/) {}
-};
-
 /// Such columns, of one register or two. Usually only the first one lies on the edge u = 0, and
 /// only the last one on u = 1.
 template <typename V>
@@ -72,10 +68,10 @@ struct TurnedColumns {
 
   SIMDBEZIER_INLINE TurnedColumns(V columns, bool watertight) : along(columns) {
     if constexpr (kLanes<V> == kL) {
-      spread(columns, x);
+      split_groups<kL>(columns, x);
     } else {
-      spread(columns.low, x);
-      spread(columns.high, x + kL);
+      split_groups<kL>(columns.low, x);
+      split_groups<kL>(columns.high, x + kL);
     }
     constexpr unsigned kLast = 1U << (kLanes<V> - 1);
     const unsigned at_0 = watertight ? lane_bits(columns == broadcast<V>(T(-0.5))) : 0;
@@ -119,13 +115,6 @@ struct TurnedColumns {
   }
 
 private:
-  static SIMDBEZIER_INLINE void spread(Register columns, Register to[kL]) {
-    [&]<std::size_t... lane>(std::index_sequence<lane...>) SIMDBEZIER_INLINE_LAMBDA {
-      ((to[lane] = broadcast_in_groups<kL, lane>(columns)), ...);
-    }
-    (std::make_index_sequence<kL>());
-  }
-
   template <bool kSlopes>
   static SIMDBEZIER_INLINE void
   register_polynomials(const T* matrix, const T* edge, const Register columns[kL], bool at_first,

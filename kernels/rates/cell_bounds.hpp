@@ -7,7 +7,6 @@
 
 #include "kernels/rates/quarter_nets.hpp"
 #include "kernels/rates/triangle_terms.hpp"
-#include "kernels/rates/whole_numbers.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/repeat.hpp"
 #include "src/tables/rate_task.hpp"

@@ -4,7 +4,6 @@
 
 #include "kernels/rates/lane_hulls.hpp"
 #include "kernels/rates/triangle_terms.hpp"
-#include "kernels/rates/whole_numbers.hpp"
 #include "src/tables/bound_task.hpp"
 #include "src/tables/rate_task.hpp"
 

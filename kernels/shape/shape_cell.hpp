@@ -69,21 +69,6 @@ struct CellRow {
         high(cell_of<T>(task, shape, patch, row * shape.cells_u() + shape.cells_u() - 1)) {}
 };
 
-/// The cells of a patch, row by row.
-template <typename T>
-class PatchCells {
-public:
-  template <typename Task>
-  SIMDBEZIER_PART PatchCells(const Task& task, const NetShape& shape, std::size_t patch)
-      : rows_{CellRow<T>(task, shape, patch, 0),
-              CellRow<T>(task, shape, patch, shape.cells_v() - 1)} {}
-
-  [[nodiscard]] SIMDBEZIER_PART const CellRow<T>& row(std::size_t row) const { return rows_[row]; }
-
-private:
-  CellRow<T> rows_[2];
-};
-
 /// Which values of a cell belong to which output: up to three components, then the weight.
 /// kComponents: as many as the compiler knows there are, or 0.
 template <bool kRational, std::size_t kComponents>

@@ -58,7 +58,7 @@ public:
     static_assert(P::OrderV::kMost % kN == 0);
     origins_ = origins;
     V x[kN];
-    spread_quads(columns_.local.x, x);
+    split_groups<kQuad<V>>(columns_.local.x, x);
     slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       Powers& power = polynomials_.power[slot];
       const auto put = [&](Series<V>& s, std::size_t l) SIMDBEZIER_INLINE_LAMBDA {

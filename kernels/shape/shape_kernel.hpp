@@ -1,6 +1,8 @@
-// Kernels for patches of any shape: which plan a task takes.
+// Kernels for patches of any shape: which plan a task takes, and the table of all of them.
 #pragma once
 
+#include "kernels/derivative/derivative_kernel.hpp"
+#include "kernels/pack/shape_pack_kernel.hpp"
 #include "kernels/shape/known_degrees.hpp"
 #include "kernels/shape/shape_scattered.hpp"
 
@@ -131,6 +133,19 @@ SIMDBEZIER_KERNEL void shape_scattered_kernel(ScatteredTask<T>& task) {
     }
     scatter_shape<AnyPlan<kDepth, kRational>>(task);
   });
+}
+
+/// The table of what any shape of patch needs. Floats and doubles have an object each, since
+/// together they take the compiler twice the memory.
+template <typename T>
+constexpr detail::ShapeTable<T> make_shape_table() {
+  detail::ShapeTable<T> table{};
+  table.grid = shape_grid_kernel<T>;
+  table.scattered = shape_scattered_kernel<T>;
+  table.derivatives = derivative_kernel<T>;
+  table.pack_f32 = shape_pack_kernel<T, float>;
+  table.pack_f64 = shape_pack_kernel<T, double>;
+  return table;
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

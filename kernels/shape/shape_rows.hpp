@@ -8,10 +8,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-using detail::GridTask;
-using detail::RowKind;
-using detail::RowRun;
-
 /// Positions on rows of a cell, from the polynomials of a register of columns.
 template <typename P, typename V>
 class PositionRows {
@@ -97,12 +93,12 @@ class ColumnSweep {
 
 public:
   SIMDBEZIER_PART ColumnSweep(const GridTask<T>& task, const NetShape& shape,
-                              const PatchCells<T>& cells, std::size_t patch, std::size_t first)
+                              const CellRow<T>* cells, std::size_t patch, std::size_t first)
       : task_(task), cells_(cells),
         x_(load_vector<V>(task.x + first), shape.cells_u(), task.watertight),
         columns_(shape, x_, task.first_component),
         edges_(shape, x_, load_vector<V>(task.x + first), task.watertight, task.first_component,
-               cells.row(0)),
+               cells[0]),
         first_at_(patch * task.patch_step + first) {
     const std::size_t left = task.nu - first;
     range_.patch = patch;
@@ -117,9 +113,9 @@ public:
   SIMDBEZIER_PART void run(const NetShape& shape, const RowsByCell<T>& rows) {
     for (std::size_t cell = 0; cell < shape.cells_v(); ++cell) {
       const CellRows<T>& of_cell = rows.of_cell(cell);
-      edges_.enter(cells_.row(cell));
+      edges_.enter(cells_[cell]);
       if (of_cell.count > 0) {
-        build_columns(columns_, cells_.row(cell), edges_, origins_);
+        build_columns(columns_, cells_[cell], edges_, origins_);
         if constexpr (kPositions) {
           put_positions(of_cell);
         } else {
@@ -200,7 +196,7 @@ private:
   }
 
   const GridTask<T>& task_;
-  const PatchCells<T>& cells_;
+  const CellRow<T>* cells_; ///< of the patch, row by row
   CellColumns<V> x_;
   Columns columns_;
   Edges edges_;
@@ -227,7 +223,8 @@ SIMDBEZIER_KERNEL void sweep_shape(const GridTask<T>& shared_task) {
   const NetShape shape = P::shape(*shared_task.shape);
   RowsByCell<T> rows(task, shape.cells_v(), ColumnSweep<P, T>::kPositions);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
-    const PatchCells<T> cells(task, shape, patch);
+    const CellRow<T> cells[2] = {{task, shape, patch, 0},
+                                 {task, shape, patch, shape.cells_v() - 1}};
     for (std::size_t row = 0; row < rows.rows(); row += CellRows<T>::kMost) {
       if (patch == 0 || rows.rows() > CellRows<T>::kMost) {
         rows.take(task, row);

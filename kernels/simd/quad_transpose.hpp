@@ -18,13 +18,26 @@ constexpr int zipped(std::size_t lane, std::size_t lanes, std::size_t quad) {
                           lane % kUnit + (k % 2) * lanes);
 }
 
-template <typename T, std::size_t kUnit, bool kHigh, typename B>
+template <typename T, std::size_t kUnit, bool kHigh, std::size_t kQuad = 16 / sizeof(T), typename B>
 SIMDBEZIER_INLINE B zip(B a, B b) {
   constexpr std::size_t kAll = sizeof(B) / sizeof(T);
   return [&]<std::size_t... kLane>(std::index_sequence<kLane...>) SIMDBEZIER_INLINE_LAMBDA {
-    return __builtin_shufflevector(a, b, zipped<kUnit, kHigh>(kLane, kAll, 16 / sizeof(T))...);
+    return __builtin_shufflevector(a, b, zipped<kUnit, kHigh>(kLane, kAll, kQuad)...);
   }
   (std::make_index_sequence<kAll>());
+}
+
+/// Transposes four registers in each kQuad values, or as much as two steps of zip() do of that.
+template <typename T, std::size_t kQuad, typename B>
+SIMDBEZIER_INLINE void transpose_four(B m[4]) {
+  const B low01 = zip<T, 1, false, kQuad>(m[0], m[1]);
+  const B high01 = zip<T, 1, true, kQuad>(m[0], m[1]);
+  const B low23 = zip<T, 1, false, kQuad>(m[2], m[3]);
+  const B high23 = zip<T, 1, true, kQuad>(m[2], m[3]);
+  m[0] = zip<T, 2, false, kQuad>(low01, low23);
+  m[1] = zip<T, 2, true, kQuad>(low01, low23);
+  m[2] = zip<T, 2, false, kQuad>(high01, high23);
+  m[3] = zip<T, 2, true, kQuad>(high01, high23);
 }
 
 /// Transposes the matrices of 16 / sizeof(T) registers. B is a vector of T that the compiler knows.
@@ -35,14 +48,7 @@ SIMDBEZIER_INLINE void transpose_quads(B m[16 / sizeof(T)]) {
     m[1] = zip<T, 1, true>(m[0], m[1]);
     m[0] = low;
   } else {
-    const B low01 = zip<T, 1, false>(m[0], m[1]);
-    const B high01 = zip<T, 1, true>(m[0], m[1]);
-    const B low23 = zip<T, 1, false>(m[2], m[3]);
-    const B high23 = zip<T, 1, true>(m[2], m[3]);
-    m[0] = zip<T, 2, false>(low01, low23);
-    m[1] = zip<T, 2, true>(low01, low23);
-    m[2] = zip<T, 2, false>(high01, high23);
-    m[3] = zip<T, 2, true>(high01, high23);
+    transpose_four<T, 4>(m);
   }
 }
 

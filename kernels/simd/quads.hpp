@@ -91,6 +91,15 @@ SIMDBEZIER_INLINE V broadcast_in_groups(V v) {
   (std::make_index_sequence<kLanes<V>>());
 }
 
+/// Returns value k of each group of kGroup lanes, in all lanes of the group, in each[k].
+template <std::size_t kGroup, typename V>
+SIMDBEZIER_INLINE void split_groups(V v, V each[kGroup]) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) SIMDBEZIER_INLINE_LAMBDA {
+    ((each[k] = broadcast_in_groups<kGroup, k>(v)), ...);
+  }
+  (std::make_index_sequence<kGroup>());
+}
+
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 /// Returns value k of each lane of `low` in the first half of that lane, and of `high` in the
 /// other.
@@ -172,15 +181,6 @@ SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
   }
 }
 
-/// Takes groups of values that belong to powers 0 to 3 apart: there is a register for each power.
-template <typename V>
-SIMDBEZIER_INLINE void split_fours(V v, V power[4]) {
-  power[0] = broadcast_in_groups<4, 0>(v);
-  power[1] = broadcast_in_groups<4, 1>(v);
-  power[2] = broadcast_in_groups<4, 2>(v);
-  power[3] = broadcast_in_groups<4, 3>(v);
-}
-
 /// Loads lane q from the 128 bits at at(q).
 template <typename V, typename At>
 SIMDBEZIER_INLINE V quads_at(const At& at) {
@@ -199,17 +199,6 @@ SIMDBEZIER_INLINE V quads_at(const At& at) {
   static_assert(kQuads<V> == 1);
   return load_vector<V>(at(0));
 #endif
-}
-
-/// Spreads the values of each 128-bit lane: value k goes to all of the lane in each[k].
-template <typename V>
-SIMDBEZIER_INLINE void spread_quads(V v, V each[kQuad<V>]) {
-  each[0] = broadcast_in_groups<kQuad<V>, 0>(v);
-  each[1] = broadcast_in_groups<kQuad<V>, 1>(v);
-  if constexpr (kQuad<V> == 4) {
-    each[2] = broadcast_in_groups<kQuad<V>, 2>(v);
-    each[3] = broadcast_in_groups<kQuad<V>, 3>(v);
-  }
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

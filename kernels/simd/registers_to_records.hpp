@@ -101,31 +101,6 @@ SIMDBEZIER_INLINE LinePart<T> merge_line(const LinePart<T> (&source)[kMembers],
   return line;
 }
 
-/// Joins units of kWidth values of a and b in turn, from the lower or the upper half of them.
-template <std::size_t kWidth, std::size_t kHalf, typename Part, std::size_t... kLane>
-SIMDBEZIER_INLINE Part join_half(Part a, Part b, std::index_sequence<kLane...>) {
-  constexpr std::size_t kN = sizeof...(kLane);
-  return __builtin_shufflevector(a, b,
-                                 static_cast<int>(kHalf * kN / 2 + kLane / kWidth / 2 * kWidth +
-                                                  kLane % kWidth + kLane / kWidth % 2 * kN)...);
-}
-
-template <std::size_t kWidth, typename T>
-SIMDBEZIER_INLINE void join(LinePart<T> a, LinePart<T> b, LinePart<T>* joined) {
-  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
-  joined[0] = join_half<kWidth, 0>(a, b, kLanes);
-  joined[1] = join_half<kWidth, 1>(a, b, kLanes);
-}
-
-template <typename T>
-SIMDBEZIER_INLINE void join_four(const LinePart<T>* p, LinePart<T>* joined) {
-  LinePart<T> pairs[4];
-  join<1, T>(p[0], p[1], pairs);
-  join<1, T>(p[2], p[3], pairs + 2);
-  join<2, T>(pairs[0], pairs[2], joined);
-  join<2, T>(pairs[1], pairs[3], joined + 2);
-}
-
 template <typename T, std::size_t kMembers, std::size_t... kLine>
 SIMDBEZIER_INLINE void merge_lines(const LinePart<T> (&source)[kMembers],
                                    LinePart<T> (&line)[kMembers],
@@ -149,15 +124,16 @@ SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[kMembers],
     merge_lines<T>(p, line, kAll);
   } else if constexpr (kMembers == 6) {
     LinePart<T> source[kMembers];
-    join<1, T>(p[0], p[1], source);
-    join<1, T>(p[2], p[3], source + 2);
-    join<1, T>(p[4], p[5], source + 4);
+    repeat<3>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      source[2 * k] = zip<T, 1, false, kPartLanes<T>>(p[2 * k], p[2 * k + 1]);
+      source[2 * k + 1] = zip<T, 1, true, kPartLanes<T>>(p[2 * k], p[2 * k + 1]);
+    });
     merge_lines<T>(source, line, kAll);
   } else {
     LinePart<T> source[kMembers];
-    join_four<T>(p, source);
-    join_four<T>(p + 4, source + 4);
-    source[8] = p[8];
+    repeat<kMembers>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { source[k] = p[k]; });
+    transpose_four<T, kPartLanes<T>>(source);
+    transpose_four<T, kPartLanes<T>>(source + 4);
     merge_lines<T>(source, line, kAll);
   }
 }

@@ -18,6 +18,24 @@ SIMDBEZIER_INLINE void repeat(const F& f) {
   (std::make_index_sequence<kCount>());
 }
 
+/// Calls f(0), f(1), f(2): each in code of its own, or in a loop.
+template <bool kApart, typename F>
+SIMDBEZIER_INLINE void for_components(const F& f) {
+  if constexpr (kApart) {
+    repeat<3>(f);
+  } else {
+    for (std::size_t c = 0; c < 3; ++c) {
+      f(c);
+    }
+  }
+}
+
+/// In place of a member that some types do without.
+struct Nothing {
+  template <typename... Arguments>
+  explicit SIMDBEZIER_INLINE Nothing(const Arguments&... /*of the member*/) {}
+};
+
 /// Calls f<count>() for the count, which is one of kCounts.
 template <std::size_t... kCounts, typename F>
 SIMDBEZIER_INLINE void with_one_of(std::size_t count, const F& f) {

@@ -86,7 +86,7 @@ SIMDBEZIER_INLINE void store_lanes_from(ScalarOf<V>* to, V value, std::size_t n)
 
 /// These row groups are for any instruction set.
 template <std::size_t kRows, typename V>
-struct PortableRowGroups {
+struct RowGroups {
   using T = ScalarOf<V>;
   static constexpr std::size_t kColumns = kLanes<V> / kRows;
 
@@ -113,40 +113,13 @@ struct PortableRowGroups {
                                SIMDBEZIER_INLINE_LAMBDA { return values[i % kColumns]; });
     }
   }
-
-  /// Stores the first `columns` lanes of the first `rows` groups and touches nothing else.
-  static SIMDBEZIER_INLINE void store_some(T* to, std::size_t step, V value, std::size_t columns,
-                                           std::size_t rows) {
-    if constexpr (kRows == 2 && kColumns > 1) {
-      store_lanes_from<kColumns, 0>(to, value, columns);
-      if (rows > 1) {
-        store_lanes_from<kColumns, kColumns>(to + step, value, columns);
-      }
-    } else {
-      alignas(64) T lanes[kLanes<V>];
-      store_vector(lanes, value);
-      std::size_t r = 0;
-      for (; r + 4 <= rows; r += 4, to += 4 * step) {
-        move_value(to, lanes + r);
-        move_value(to + step, lanes + r + 1);
-        move_value(to + 2 * step, lanes + r + 2);
-        move_value(to + 3 * step, lanes + r + 3);
-      }
-      for (; r < rows; ++r, to += step) {
-        move_value(to, lanes + r);
-      }
-    }
-  }
 };
-
-template <std::size_t kRows, typename V>
-struct RowGroups : PortableRowGroups<kRows, V> {};
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 // Values come as a 64 or 128 bit broadcast and an in-lane permute, which leaves the pipes of the
 // multiply-adds alone.
 template <>
-struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
+struct RowGroups<2, vec<float>> {
   static SIMDBEZIER_INLINE vec<float> repeat(const float* values) {
     return vec<float>(_mm512_broadcast_f32x8(_mm256_loadu_ps(values)));
   }
@@ -167,7 +140,7 @@ SIMDBEZIER_INLINE vec<float> second_rows(vec<float> a, vec<float> b) {
 }
 
 template <>
-struct RowGroups<4, vec<float>> : PortableRowGroups<4, vec<float>> {
+struct RowGroups<4, vec<float>> {
   static SIMDBEZIER_INLINE vec<float> repeat(const float* values) {
     return vec<float>(_mm512_broadcast_f32x4(_mm_loadu_ps(values)));
   }
@@ -178,7 +151,7 @@ struct RowGroups<4, vec<float>> : PortableRowGroups<4, vec<float>> {
 };
 
 template <>
-struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
+struct RowGroups<2, vec<double>> {
   static SIMDBEZIER_INLINE vec<double> repeat(const double* values) {
     return vec<double>(_mm512_broadcast_f64x4(_mm256_loadu_pd(values)));
   }
@@ -189,7 +162,7 @@ struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
 };
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
 template <>
-struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
+struct RowGroups<2, vec<float>> {
   static SIMDBEZIER_INLINE vec<float> repeat(const float* values) {
     return vec<float>(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(values)));
   }
@@ -202,7 +175,7 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
 };
 
 template <>
-struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
+struct RowGroups<2, vec<double>> {
   static SIMDBEZIER_INLINE vec<double> repeat(const double* values) {
     return vec<double>(_mm256_broadcast_pd(reinterpret_cast<const __m128d*>(values)));
   }

@@ -69,20 +69,14 @@ SIMDBEZIER_INLINE V join_fours(const ScalarOf<V>* from, [[maybe_unused]] std::si
   } else if constexpr (kStructures == kQuads<V>) {
     return __builtin_bit_cast(V, join_quads<V>(from, step));
   } else {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
     static_assert(kStructures == 2);
+#if defined(SIMDBEZIER_KERNELS_AVX512)
     if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
       const __m512 first = _mm512_broadcast_f32x4(load_any<__m128>(from));
       return V(_mm512_mask_broadcast_f32x4(first, 0xff00, load_any<__m128>(from + step)));
     } else {
       return V(two_halves(from, from + step));
     }
-#else
-    alignas(64) ScalarOf<V> lanes[kLanes<V>];
-    for (std::size_t i = 0; i < kLanes<V>; ++i) {
-      lanes[i] = from[i * kStructures / kLanes<V> * step + i % 4];
-    }
-    return load_vector<V>(lanes);
 #endif
   }
 }
@@ -117,10 +111,6 @@ SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, Step strid
 // Where a register is a line, a line of each structure takes three quarters of the shuffles and
 // inserts that its pieces would take, and a fourth of the loads or stores.
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-/// Whether whole lines of structures can be turned.
-template <typename V>
-inline constexpr bool kTurnsLines = kLineWide<V>;
-
 /// Transposes the matrix of 128-bit pieces of four registers.
 template <typename B>
 SIMDBEZIER_INLINE void transpose_pieces(B (&m)[4]) {
@@ -180,9 +170,6 @@ SIMDBEZIER_INLINE void store_lines_across(const V* values, ScalarOf<V>* to, Step
     });
   });
 }
-#else
-template <typename V>
-inline constexpr bool kTurnsLines = false;
 #endif
 
 /// Loads values[k], lane p = from[p * stride + k], for kCount k.
@@ -190,7 +177,7 @@ template <std::size_t kCount, typename V, typename Step>
 SIMDBEZIER_INLINE void load_values_across(const ScalarOf<V>* from, Step stride, V* values) {
   if constexpr (kIsScalar<V>) {
     repeat<kCount>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { values[k] = from[k]; });
-  } else if constexpr (kTurnsLines<V> && kCount % kLanes<V> == 0) {
+  } else if constexpr (kLineWide<V> && kCount % kLanes<V> == 0) {
     repeat<kCount / kLanes<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
       load_lines_across(from + k * kLanes<V>, stride, values + k * kLanes<V>);
     });
@@ -206,7 +193,7 @@ SIMDBEZIER_INLINE void store_values_across(const V* values, ScalarOf<V>* to, Ste
                                            [[maybe_unused]] bool streams = false) {
   if constexpr (kIsScalar<V>) {
     repeat<kCount>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { to[k] = values[k]; });
-  } else if constexpr (kTurnsLines<V> && kCount == kLanes<V>) {
+  } else if constexpr (kLineWide<V> && kCount == kLanes<V>) {
     store_lines_across(values, to, stride, streams);
   } else {
     repeat<kCount / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {

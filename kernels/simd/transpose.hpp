@@ -69,32 +69,6 @@ SIMDBEZIER_INLINE Wide load_each(const T* const from[kWideLanes], std::ptrdiff_t
   (std::make_index_sequence<kWideLanes>());
 }
 
-#if !defined(SIMDBEZIER_KERNELS_AVX512) && !defined(SIMDBEZIER_KERNELS_AVX2) &&                    \
-    !defined(SIMDBEZIER_KERNELS_SSE2)
-/// load_transposed() and store_transposed() of floats for other instruction sets, by way of memory.
-SIMDBEZIER_INLINE void load_lanes_transposed(const float* from, std::ptrdiff_t stride,
-                                             Wide values[kTransposed]) {
-  const float* place[kWideLanes];
-  for (std::size_t p = 0; p < kWideLanes; ++p) {
-    place[p] = from + static_cast<std::ptrdiff_t>(p) * stride;
-  }
-  for (std::size_t k = 0; k < kTransposed; ++k) {
-    values[k] = load_each(place, static_cast<std::ptrdiff_t>(k));
-  }
-}
-SIMDBEZIER_INLINE void store_lanes_transposed(const Wide values[kTransposed], float* to,
-                                              std::ptrdiff_t stride) {
-  alignas(64) double lanes[kWideLanes];
-  for (std::size_t k = 0; k < kTransposed; ++k) {
-    store_vector<Wide>(lanes, values[k]);
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      to[static_cast<std::ptrdiff_t>(p) * stride + static_cast<std::ptrdiff_t>(k)] =
-          static_cast<float>(lanes[p]) + 0.0F;
-    }
-  }
-}
-#endif
-
 /// Loads values[k], lane p = from[p * stride + k].
 SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
                                        Wide values[kTransposed]) {
@@ -134,7 +108,13 @@ SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
     values[k + 3] = widened(_mm_movehl_ps(high, high));
   }
 #else
-  load_lanes_transposed(from, stride, values);
+  const float* place[kWideLanes];
+  for (std::size_t p = 0; p < kWideLanes; ++p) {
+    place[p] = from + static_cast<std::ptrdiff_t>(p) * stride;
+  }
+  for (std::size_t k = 0; k < kTransposed; ++k) {
+    values[k] = load_each(place, static_cast<std::ptrdiff_t>(k));
+  }
 #endif
 }
 
@@ -178,7 +158,14 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* t
     _mm_storeu_ps(to + k + stride, _mm_add_ps(_mm_shuffle_ps(a, b, 0xdd), zero));
   }
 #else
-  store_lanes_transposed(values, to, stride);
+  alignas(64) double lanes[kWideLanes];
+  for (std::size_t k = 0; k < kTransposed; ++k) {
+    store_vector<Wide>(lanes, values[k]);
+    for (std::size_t p = 0; p < kWideLanes; ++p) {
+      to[static_cast<std::ptrdiff_t>(p) * stride + static_cast<std::ptrdiff_t>(k)] =
+          static_cast<float>(lanes[p]) + 0.0F;
+    }
+  }
 #endif
 }
 

@@ -79,18 +79,10 @@ inline constexpr bool kSimd128 = false;
 
 // Which V holds what -----------------------------------------------------------------------------
 
+/// Of a single value, unless V is a register.
 template <typename V>
-struct Traits;
-
-template <>
-struct Traits<float> {
-  using Scalar = float;
-  using Mask = bool;
-  static constexpr std::size_t kLanes = 1;
-};
-template <>
-struct Traits<double> {
-  using Scalar = double;
+struct Traits {
+  using Scalar = V;
   using Mask = bool;
   static constexpr std::size_t kLanes = 1;
 };
