@@ -10,26 +10,31 @@
 #pragma once
 
 #include "kernels/fast/band_plan.hpp"
+#include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// kCount tiles of a register each; kSingle: and a column in a buffer behind them.
-template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, typename V>
+/// kCount tiles of a V each; kSingle: and a column in a buffer behind them. kStreams: they are
+/// lines that go past the caches, plane by plane, which is cheaper than three planes at once,
+/// although positions and dv form some sums twice.
+template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, typename V, bool kStreams>
 class RowBand {
   using T = ScalarOf<V>;
-  using Tile = ColumnTile<1, true, false, V>;
-  using Last = ColumnTile<1, true, kSingle, V>;
+  using Tile = ColumnTile<1, true, false, V, kStreams>;
+  using Last = ColumnTile<1, true, kSingle, V, kStreams>;
   static constexpr std::size_t kL = kLanes<V>;
   static constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
   static constexpr std::size_t kPlanes = kJets ? 3 : 1;
-  /// Registers of a line have more to do for stores than for products: rows in order are stored
-  /// faster than rows from both ends.
-  static constexpr RowPairs kPairs = kLineWide<V> ? RowPairs::never : RowPairs::always;
+  static constexpr std::size_t kTogether = kStreams ? 1 : kPlanes;
+  static constexpr std::size_t kOthers = kCount > 1 ? kCount - 1 : 1; ///< a single one stands twice
+  /// Registers of a line have more to do for stores than for products: in the caches, rows in order
+  /// are stored faster than rows from both ends.
+  static constexpr RowPairs kPairs = kLineWide<V> && !kStreams ? RowPairs::never : RowPairs::always;
 
 public:
   /// The band is columns [first, end).
   SIMDBEZIER_PART RowBand(const GridTask<T>& task, std::size_t first, std::size_t end)
-      : RowBand(task, first, end, std::make_index_sequence<kCount - 1>()) {}
+      : RowBand(task, first, end, std::make_index_sequence<kOthers>()) {}
 
   /// Sweeps one component, whose planes are given from the band's first column on.
   SIMDBEZIER_PART void sweep(const RowPiece<T>& piece, const Component<T>& c, std::size_t nu,
@@ -57,38 +62,47 @@ public:
       }
       return value_parts(columns[k].q, at);
     };
-    const auto put = [&](const T* y, RowPlace place,
-                         const auto&... mirror) SIMDBEZIER_INLINE_LAMBDA {
-      const auto at = piece.template point<1, V>(y);
+    const auto put_edge = [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
       for_tiles([&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
-        Parts<V> parts[kPlanes];
-        repeat<kPlanes>([&](std::size_t plane) SIMDBEZIER_INLINE_LAMBDA {
-          parts[plane] = parts_of(k, plane, at);
-          store(tile, plane, column, place, parts[plane].sum());
-        });
-        repeat<kPlanes>([&](std::size_t plane) SIMDBEZIER_INLINE_LAMBDA {
-          (store(tile, plane, column, mirror, parts[plane].difference()), ...);
-        });
+        if constexpr (kJets) {
+          const Jet<V> jet = columns[k].edge(c, tile, edge_of(kind));
+          store(tile, 0, column, place, jet.p);
+          store(tile, 1, column, place, jet.du);
+          store(tile, 2, column, place, jet.dv);
+        } else {
+          store(tile, 0, column, place, tile.edge_rows(c, edge_of(kind)));
+        }
       });
     };
-    for_rows<RowOrder{1, kPairs, 1}>(
-        piece, 0, nu,
-        [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-          for_tiles([&](std::size_t k, std::size_t column, const auto& tile)
-                        SIMDBEZIER_INLINE_LAMBDA {
-                          if constexpr (kJets) {
-                            const Jet<V> jet = columns[k].edge(c, tile, edge_of(kind));
-                            store(tile, 0, column, place, jet.p);
-                            store(tile, 1, column, place, jet.du);
-                            store(tile, 2, column, place, jet.dv);
-                          } else {
-                            store(tile, 0, column, place, tile.edge_rows(c, edge_of(kind)));
-                          }
-                        });
-        },
-        put,
-        [&](const T* y, RowPlace place, std::size_t /*rows*/)
-            SIMDBEZIER_INLINE_LAMBDA { put(y, place); });
+    repeat<kPlanes / kTogether>([&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
+      const auto put = [&](const T* y, RowPlace place,
+                           const auto&... mirror) SIMDBEZIER_INLINE_LAMBDA {
+        const auto at = piece.template point<1, V>(y);
+        for_tiles(
+            [&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+              Parts<V> parts[kTogether];
+              repeat<kTogether>([&](std::size_t p) SIMDBEZIER_INLINE_LAMBDA {
+                parts[p] = parts_of(k, first + p, at);
+                store(tile, first + p, column, place, parts[p].sum());
+              });
+              repeat<kTogether>([&](std::size_t p) SIMDBEZIER_INLINE_LAMBDA {
+                (tile.store_mirrored(planes[first + p] + mirror.at + column, nu,
+                                     parts[p].difference(), extra.plane(first + p) + mirror.row),
+                 ...);
+              });
+            });
+      };
+      for_rows<RowOrder{1, kPairs, 1}>(
+          piece, 0, nu,
+          [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
+            if (first == 0) { // those of all planes
+              put_edge(kind, place);
+            }
+          },
+          put,
+          [&](const T* y, RowPlace place, std::size_t /*rows*/)
+              SIMDBEZIER_INLINE_LAMBDA { put(y, place); });
+    });
   }
 
 private:
@@ -107,14 +121,15 @@ private:
     visit(kCount - 1, kSingle ? (kCount - 1) * kL : last_column_, last_);
   }
 
-  Tile tile_[kCount - 1];
+  Tile tile_[kOthers];
   Last last_;
   std::size_t last_column_;
 };
 
 /// Sweeps columns [first, end) of patches [patch, last_patch) in a band, and the column behind it
 /// if kSingle.
-template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, typename T>
+template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, bool kStreams = false,
+          typename T>
 SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
                                   std::size_t first, std::size_t end, std::size_t patch,
                                   std::size_t last_patch) {
@@ -122,7 +137,8 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const RowPiece<T> piece = shared_piece;
-  const RowBand<kOutputs, kCount, kSingle, vec<T>> band(task, first, end);
+  using V = std::conditional_t<kStreams, RegisterPair<vec<T>>, vec<T>>;
+  const RowBand<kOutputs, kCount, kSingle, V, kStreams> band(task, first, end);
   const SingleColumnTile<vec<T>> column(task.x, kSingle ? end : 0, 1, task.watertight);
   ColumnBuffer<T, 3> buffer;
   const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
