@@ -142,18 +142,18 @@ TwoDoubles SplineKnots::knot(std::size_t k) const noexcept {
   if (!periodic_ || (at >= 0 && at <= count)) {
     return {knots_[static_cast<std::size_t>(at)], 0};
   }
-  std::ptrdiff_t turns = (at >= 0 ? at : at - count + 1) / count;
-  double knot = knots_[static_cast<std::size_t>(at - turns * count)];
-  // What equals either end of the period has to be equal to it also after a turn.
-  if (turns > 0 && knot == knots_.front()) {
-    knot = knots_.back();
-    --turns;
-  } else if (turns < 0 && knot == knots_.back()) {
-    knot = knots_.front();
-    ++turns;
+  // It is one turn away, since there are at least as many points as the degree. No product is
+  // needed, which could leave the range of doubles. What equals either end of the period has to be
+  // equal to it also after a turn.
+  const double first = knots_.front();
+  const double last = knots_.back();
+  const TwoDoubles period = exact_sum(last, -first);
+  if (at < 0) {
+    const double knot = knots_[static_cast<std::size_t>(at + count)];
+    return knot == last ? TwoDoubles{first, 0} : TwoDoubles{knot, 0} - period;
   }
-  const TwoDoubles period = exact_sum(knots_.back(), -knots_.front());
-  return TwoDoubles{knot, 0} + TwoDoubles{static_cast<double>(turns), 0} * period;
+  const double knot = knots_[static_cast<std::size_t>(at - count)];
+  return knot == first ? TwoDoubles{last, 0} : TwoDoubles{knot, 0} + period;
 }
 
 bool SplineKnots::joins_previous(std::size_t span) const noexcept {

@@ -59,7 +59,7 @@ private:
   bool periodic_ = false;
   std::size_t points_ = 0;
   std::size_t period_ = 0;
-  std::vector<double> knots_; ///< scaled, where they are near the end of the range of doubles
+  std::vector<double> knots_;
   std::vector<SplineSpan> spans_;
 };
 

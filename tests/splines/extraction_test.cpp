@@ -11,7 +11,16 @@
 namespace simdbezier::tests {
 namespace {
 
-/// Every kind of knots x part of the domain x degree in one direction, others in the other one.
+AxisModel with_knots_times(AxisModel axis, double factor) {
+  for (double& knot : axis.knots) {
+    knot *= factor;
+  }
+  axis.range = {axis.range.begin * factor, axis.range.end * factor};
+  return axis;
+}
+
+/// Every kind of knots x part of the domain x degree in one direction, others in the other one; and
+/// knots at both ends of the range of doubles.
 template <typename T>
 std::vector<ExactCase<T>> make_cases(std::span<const int> degrees, std::uint64_t seed) {
   std::vector<ExactCase<T>> cases;
@@ -29,6 +38,17 @@ std::vector<ExactCase<T>> make_cases(std::span<const int> degrees, std::uint64_t
             name_of(kind) + " of degree " + std::to_string(degree) + (part ? ", a part" : ""),
             random_surface<T>(random, exchanged ? other : axis, exchanged ? axis : other,
                               random.integer(1, 2), forms[cases.size() % 3])));
+      }
+    }
+  }
+  for (const double factor : {0x1p995, 0x1p-900}) {
+    for (const KnotKind kind : {KnotKind::multiple, KnotKind::distant, KnotKind::periodic}) {
+      for (const int degree : {2, 5}) {
+        const AxisModel u = random_axis(random, kind, degree, degree == 5);
+        const AxisModel v = random_axis(random, KnotKind::uniform, 2, false);
+        cases.push_back(exact_case(
+            name_of(kind) + " times " + std::to_string(std::ilogb(factor)) + " bits",
+            random_surface<T>(random, with_knots_times(u, factor), v, 2, Weights::none)));
       }
     }
   }
@@ -51,8 +71,9 @@ void expect_near(const CutSurface<T>& cut, const ExactCase<T>& item) {
     ASSERT_EQ(cut.values.size(), item.exact[c].size() * channels);
     for (std::size_t k = 0; k < item.exact[c].size(); ++k) {
       const Rational& exact = item.exact[c][k];
-      const Rational apart =
-          abs(Rational(static_cast<double>(cut.values[k * channels + c])) - exact);
+      const auto value = static_cast<double>(cut.values[k * channels + c]);
+      ASSERT_TRUE(std::isfinite(value)) << "value " << k << " of channel " << c;
+      const Rational apart = abs(Rational(value) - exact);
       const Rational rounding =
           sizeof(T) == sizeof(float) ? Rational(abs(exact) * Rational(0x1.0001p-24)) : Rational(0);
       ASSERT_LE(apart, item.bound[c] + rounding) << "value " << k << " of channel " << c;
