@@ -4,6 +4,7 @@
 #include <simdbezier/evaluate_mesh.hpp>
 
 #include "src/calls/call.hpp"
+#include "src/choice/measured_call.hpp"
 #include "src/mesh/layout/layout_builder.hpp"
 #include "src/mesh/radians.hpp"
 #include "src/mesh/vertices/crease_groups.hpp"
@@ -63,11 +64,7 @@ Status find_groups(const PatchSet<T>& set, const MeshData& whole, double angle,
   const OutputSelection normals = {Output::normal};
   const PatchKernels<T> kernels(*set.storage(), request, normals, options);
   const CreaseWork<T> work(whole, kernels, angle, groups, sample_of_corner.data());
-  return run_blocks_here(
-      work.units(), work.duration(), options, work.scratch_bytes(),
-      [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
-        return work.run(worker, begin, end, scratch);
-      });
+  return run_work(AnyWork(work), options);
 }
 
 /// A layout whose vertices are those of the groups. merged: see MeshData.
