@@ -44,15 +44,16 @@ Primitives primitives_of(const simdbezier_primitive_options* given) {
   return how;
 }
 
-template <typename Index>
-simdbezier_status triangles_of(const char* function, const simdbezier_mesh_layout* layout,
-                               Index* triangles, std::size_t length,
-                               const simdbezier_primitive_options* options) noexcept {
+/// write: write_triangles or write_strips.
+template <typename Index, typename Write>
+simdbezier_status indices_of(const char* function, const char* name, const Write& write,
+                             const simdbezier_mesh_layout* layout, Index* indices,
+                             std::size_t length,
+                             const simdbezier_primitive_options* options) noexcept {
   return answer(function, [&] {
-    const std::span<Index> out = span_of(triangles, length, {"triangles"});
+    const std::span<Index> out = span_of(indices, length, {name});
     const Primitives how = primitives_of(options);
-    require_ok(write_triangles(object_of(layout, kLayout), out, how.options, how.patches),
-               about("triangles"));
+    require_ok(write(object_of(layout, kLayout), out, how.options, how.patches), about(name));
   });
 }
 
@@ -67,18 +68,6 @@ simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout
     const Primitives how = primitives_of(options);
     require_ok(write_polygons(object_of(layout, kLayout), out, of, how.options, how.patches),
                about("indices or sizes"));
-  });
-}
-
-template <typename Index>
-simdbezier_status strips_of(const char* function, const simdbezier_mesh_layout* layout,
-                            Index* indices, std::size_t length,
-                            const simdbezier_primitive_options* options) noexcept {
-  return answer(function, [&] {
-    const std::span<Index> out = span_of(indices, length, {"indices"});
-    const Primitives how = primitives_of(options);
-    require_ok(write_strips(object_of(layout, kLayout), out, how.options, how.patches),
-               about("indices"));
   });
 }
 
@@ -97,7 +86,8 @@ using namespace simdbezier::c_api;
   simdbezier_status simdbezier_write_triangles_##suffix(                                           \
       const simdbezier_mesh_layout* layout, Index* triangles, size_t length,                       \
       const simdbezier_primitive_options* options) {                                               \
-    return triangles_of(__func__, layout, triangles, length, options);                             \
+    return indices_of(__func__, "triangles", write_triangles<Index>, layout, triangles, length,    \
+                      options);                                                                    \
   }                                                                                                \
   simdbezier_status simdbezier_write_polygons_##suffix(                                            \
       const simdbezier_mesh_layout* layout, Index* indices, size_t length, uint8_t* sizes,         \
@@ -107,7 +97,7 @@ using namespace simdbezier::c_api;
   simdbezier_status simdbezier_write_strips_##suffix(                                              \
       const simdbezier_mesh_layout* layout, Index* indices, size_t length,                         \
       const simdbezier_primitive_options* options) {                                               \
-    return strips_of(__func__, layout, indices, length, options);                                  \
+    return indices_of(__func__, "indices", write_strips<Index>, layout, indices, length, options); \
   }
 SIMDBEZIER_INDICES(u32, uint32_t)
 SIMDBEZIER_INDICES(u16, uint16_t)
