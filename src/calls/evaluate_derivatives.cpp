@@ -51,13 +51,11 @@ struct DerivativesGiven {
     MemoryRange ranges[4] = {wanted}; // of inputs there are three at most
     std::copy(inputs.begin(), inputs.end(), ranges + 1);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const auto check_beside = [&](const Vectors<T>* other, std::span<const MemoryRange> known) {
-        const OutputList<T> out(&wanted[i].out, other);
-        return check_outputs(out, samples, components.dimension, known);
-      };
-      Status status = check_beside(nullptr, {ranges, inputs.size() + 1});
+      Status status = check_outputs(OutputList<T>(&wanted[i].out, 1), samples, components.dimension,
+                                    {ranges, inputs.size() + 1});
       for (std::size_t k = 0; k < i && status; ++k) {
-        status = check_beside(&wanted[k].out, {});
+        const Vectors<T> both[] = {wanted[i].out, wanted[k].out};
+        status = check_outputs(OutputList<T>(both, 2), samples, components.dimension, {});
       }
       if (!status) {
         return status;

@@ -61,12 +61,6 @@ struct OutputList {
     }
     note_wishes();
   }
-  /// One vector, or two where `second` is not null.
-  OutputList(const Vectors<T>* first, const Vectors<T>* second) noexcept
-      : vectors{first, second}, vector_count(second == nullptr ? 1 : 2), curvature{},
-        curvature_count(0), status(nullptr) {
-    note_wishes();
-  }
 
   [[nodiscard]] bool wants(std::size_t vector) const noexcept {
     return (wanted_ >> vector & 1U) != 0;

@@ -131,8 +131,7 @@ struct VertexAttributes {
       return Status::ok;
     }
     const MemoryRange patches[] = {range(vertices)};
-    if (const Status status =
-            check_outputs(OutputList<T>(&parameters, nullptr), vertices, 2, patches);
+    if (const Status status = check_outputs(OutputList<T>(&parameters, 1), vertices, 2, patches);
         !status) {
       return status;
     }
