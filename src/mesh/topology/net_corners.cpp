@@ -13,27 +13,15 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Whether two control points of a view are one.
-template <typename S>
-bool are_one(const ControlNets<S>& nets, const Point3& a, const Point3& b) noexcept {
-  double size = 0;
-  double apart = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    size = std::max({size, std::fabs(a.x[c]), std::fabs(b.x[c])});
-    apart = std::max(apart, std::fabs(a.x[c] - b.x[c]));
-  }
-  return apart <= one_point_tolerance(nets.weights, sizeof(S) == sizeof(double)) * size;
-}
-
 /// The way from an end of a side, whose values begin at `end`, to its first control point that is
 /// somewhere else; `stride` leads from one to the next.
 template <typename S>
 Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride, int degree) {
-  const Point3 from = point_of(nets, end);
   Point3 way{};
   for (std::ptrdiff_t k = 1; k <= degree && !has_length(way); ++k) {
-    const Point3 to = point_of(nets, end + k * stride);
-    way = are_one(nets, from, to) ? Point3{} : to - from;
+    way = are_one_point(end, k * stride, 2, 3, nets.component_stride, nets.weights)
+              ? Point3{}
+              : point_of(nets, end + k * stride) - point_of(nets, end);
   }
   return way;
 }
@@ -128,7 +116,10 @@ FreshVector<std::uint8_t> NetCorners<S>::doubts(int threads) const {
 template <typename S>
 bool NetCorners<S>::ends_meet(std::size_t side) const noexcept {
   const auto at = views_.place(side / kPatchEdges);
-  return are_one(*at.nets, corner_point(corner_at(side, 0)), corner_point(corner_at(side, 1)));
+  const ControlNets<S>& nets = *at.nets;
+  const EdgeForm form(nets, static_cast<PatchEdge>(side % kPatchEdges));
+  return are_one_point(values_at(nets, at.patch, 0, 0) + form.first, form.degree * form.stride, 2,
+                       3, nets.component_stride, nets.weights);
 }
 
 template <typename S>
