@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
+#include <simdbezier/curves.hpp>
 
 #include "src/nets/net_views.hpp"
 #include "src/storage/one_point.hpp"
@@ -41,14 +42,12 @@ struct EdgeForm {
 
   template <typename S>
   EdgeForm(const ControlNets<S>& nets, PatchEdge edge) noexcept
-      : first(edge == PatchEdge::v1   ? nets.degree_v * nets.row_stride
-              : edge == PatchEdge::u1 ? nets.degree_u * nets.point_stride
-                                      : 0),
-        component_stride(nets.component_stride), components(nets.components),
+      : component_stride(nets.component_stride), components(nets.components),
         weights(nets.weights) {
-    const bool in_u = edge == PatchEdge::v0 || edge == PatchEdge::v1;
-    stride = in_u ? nets.point_stride : nets.row_stride;
-    degree = in_u ? nets.degree_u : nets.degree_v;
+    const ControlCurves<S> curves = boundary_curves(nets, edge);
+    first = curves.points - nets.points;
+    stride = curves.point_stride;
+    degree = curves.degree;
   }
 };
 

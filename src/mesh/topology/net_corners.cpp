@@ -64,16 +64,13 @@ template <typename S>
 void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
   const auto at = views_.place(side / kPatchEdges);
   const ControlNets<S>& nets = *at.nets;
-  const bool in_u = runs_in_u(side);
-  const bool far = side % 2 != 0;
-  const std::ptrdiff_t degree = in_u ? nets.degree_u : nets.degree_v;
+  const EdgeForm form(nets, static_cast<PatchEdge>(side % kPatchEdges));
+  const S* const first = values_at(nets, at.patch, 0, 0) + form.first;
   to.points.clear();
   to.weights.clear();
-  for (std::ptrdiff_t k = 0; k <= degree; ++k) {
-    const std::ptrdiff_t i = in_u ? k : far ? nets.degree_u : 0;
-    const std::ptrdiff_t j = in_u ? (far ? nets.degree_v : 0) : k;
-    to.points.push_back(point_at(nets, at.patch, i, j));
-    to.weights.push_back(static_cast<double>(weight_of(nets, values_at(nets, at.patch, i, j))));
+  for (std::ptrdiff_t k = 0; k <= form.degree; ++k) {
+    to.points.push_back(point_of(nets, first + k * form.stride));
+    to.weights.push_back(static_cast<double>(weight_of(nets, first + k * form.stride)));
   }
 }
 
