@@ -34,9 +34,8 @@ simdbezier_add_sources(mesh/split O3 split_edges.cpp)
 simdbezier_add_sources(mesh/bounds O3 cell_graph.cpp chord_distance.cpp group_bound.cpp
                        normal_bends.cpp separable_bound.cpp
                        space_bound.cpp vector_patch.cpp)
-simdbezier_add_sources(mesh/rates O3 cell_search.cpp certify_grids.cpp curve_cells.cpp
-                       filip_terms.cpp flatten.cpp pixels.cpp position_errors.cpp rates.cpp
-                       space_search.cpp)
+simdbezier_add_sources(mesh/rates O3 cell_search.cpp certify_grids.cpp flatten.cpp pixels.cpp
+                       position_errors.cpp rates.cpp space_search.cpp)
 simdbezier_add_sources(mesh/layout O3 mesh_layout.cpp mesh_parts.cpp separation.cpp)
 simdbezier_add_sources(mesh/primitives O3 write_primitives.cpp write_triangles.cpp)
 simdbezier_add_sources(mesh/vertices O3 evaluate_formatted.cpp evaluate_mesh.cpp)

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "src/calls/call.hpp"
-#include "src/mesh/primitives/cluster_sink.hpp"
 #include "src/mesh/primitives/primitive_call.hpp"
 #include "src/mesh/primitives/primitive_sinks.hpp"
 #include "src/runtime/batch.hpp"

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "src/mesh/vertices/boundary_samples.hpp"
-#include "src/mesh/vertices/vertex_target.hpp"
 #include "src/mesh/vertices/waiting_vertices.hpp"
 
 namespace simdbezier::detail {
