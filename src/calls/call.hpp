@@ -1,21 +1,13 @@
 // The one way of all calls that evaluate: resolve, check, plan, run.
 //
-//   Status resolve()        what is asked for: instruction set, components, range of the set
-//   Status check()          everything that a caller can get wrong
-//   bool empty()            nothing is to be done, so that there may not even be a set
-//   auto plan()             the work: which kernels, which pieces, how outputs are delivered;
-//                           plan(Way) where that is a choice, and plan_narrower() where two
-//                           instruction sets are (choice/measured_call.hpp)
-//
-// and the work's
-//   std::size_t units()           what threads share
-//   std::size_t duration()        about how long one thread takes, as duration_of() says
-//   std::size_t scratch_bytes()   that each of them needs
-//   Isa run(worker, begin, end, scratch)
+//   Status resolve()   what is asked for: instruction set, components, range of the set
+//   Status check()     everything that a caller can get wrong
+//   bool empty()       nothing is to be done, so that there may not even be a set
+//   auto plan()        the work (AnyWork): which kernels, which pieces, how outputs are delivered;
+//                      plan(Way) where that is a choice (choice/measured_call.hpp)
 //
 // The first two may refuse the call, before anything has been written. After them only an
-// allocation can fail, before the first thread starts. make_call() calls all of them in the
-// library's floating-point environment.
+// allocation can fail, before the first thread starts.
 #pragma once
 
 #include <algorithm>

@@ -1,31 +1,12 @@
-// Calls that choose by measuring: how their results get to memory, and on which of two instruction
-// sets with equal bits they run. Besides what every call has (call.hpp), calls that can write
-// through the caches or past them have
+// Calls that choose by measuring: whether their results go through the caches or past them, and on
+// which of two instruction sets with equal bits they run.
 //
-//   auto plan(Way)                  the work, for each way of getting the outputs to memory
-//   std::size_t written() const     how many bytes it writes
-//   CallKind kind() const           what calls have in common that the same stores suit
-//
-// and the work's
-//   std::size_t grain()             units of a patch or sample, of which there are equally many
-//   each way
-//
-// Which way is the fastest depends on the machine, on what the kernels can put where it belongs by
-// themselves, on the width of rows and on the number of threads; no rule foretells it. The first
-// large calls of each kind therefore evaluate some of their samples in each way that their caller
-// allows, and the fastest one is kept: what two calls agree about, or what the third one says. All
-// give the same bits, so that it does not matter who decides what.
-//
-// Nor is the wider of two instruction sets always the faster one: where a processor splits its
-// registers in two, small grids lose by what fills them. The first calls of each kind that are
-// large enough and stay in the caches therefore evaluate a few of their patches on both, in some 20
-// microseconds, and the faster one is kept: again what two calls agree about, or what the third one
-// says. Calls that may run on either have
-//
-//   bool may_narrow()       whether there are two, nobody has named one of them, and the call is
-//                           large enough
-//   auto plan_narrower()    the work of plan(Way::cache) on the narrower one
-//   CallKind width_kind()   what calls have in common that the same kernels suit
+// No rule foretells what is the fastest: stores depend on the machine, on what kernels can put
+// where it belongs by themselves, on the width of rows and on the number of threads, and where a
+// processor splits wide registers in two, small grids lose by what fills them. The first calls of
+// each kind that are large enough therefore evaluate some of their samples in each way that their
+// caller allows. What two calls agree about, or the third one says, is kept. All ways give the same
+// bits, so that it does not matter who decides what.
 #pragma once
 
 #include <algorithm>
@@ -44,29 +25,31 @@
 
 namespace simdbezier::detail {
 
+/// Calls that can write through the caches or past them.
 template <typename Call>
 concept HasDestination = requires(const Call& call) {
-  call.plan(Way::cache);
-  call.written();
-  call.kind();
+  call.plan(Way::cache); // the work, for each way of getting the outputs to memory
+  call.written();        // how many bytes it writes
+  call.kind();           // what calls have in common that the same stores suit
 };
 
+/// Calls that may run on either of two instruction sets.
 template <typename Call>
 concept HasWidths = requires(const Call& call) {
-  call.may_narrow();
-  call.plan_narrower();
-  call.width_kind();
+  call.may_narrow();    // whether there are two, none is named, and the call is large
+  call.plan_narrower(); // the work of plan(Way::cache) on the narrower one
+  call.width_kind();    // what calls have in common that the same kernels suit
 };
 
-/// See src/calls/call.hpp for what a work has.
+/// What a call plans, whose functions have the names of these members.
 struct AnyWork {
   const void* work;
   Isa (*run)(const void* work, int worker, std::size_t begin, std::size_t end,
              unsigned char* scratch);
-  std::size_t units;
-  std::size_t duration;
-  std::size_t grain;
-  std::size_t scratch_bytes;
+  std::size_t units;         ///< what threads share
+  std::size_t duration;      ///< about how long one thread takes, as duration_of() says
+  std::size_t grain;         ///< units of a patch or sample, of which each way has equally many
+  std::size_t scratch_bytes; ///< that each thread needs
 
   template <typename Work>
   explicit AnyWork(const Work& of, std::size_t units_of_patch = 1) noexcept
@@ -139,8 +122,9 @@ inline constexpr std::size_t kLeastMeasured = 1024;
 /// What calls of the process have found out.
 CallNotes<Width>& width_notes() noexcept;
 
-/// Runs the same work on both instruction sets, of a call that has claimed its kind, and notes
-/// which is faster. Returns ok | out_of_memory, before anything is written.
+/// Runs a call that has claimed its kind: first a few of its patches on both instruction sets, in
+/// some 20 microseconds, and notes which is faster. Returns ok | out_of_memory, before anything is
+/// written.
 [[nodiscard]] Status run_and_choose(const AnyWork& widest, const AnyWork& narrower,
                                     const CallKind& kind, const Options& options) noexcept;
 

@@ -1,7 +1,5 @@
-// See separable_bound.hpp.
-//
-// With weights a_i b_j a patch is S = Y / (a b), and b is a constant along u. Its derivatives along
-// u are, with G = Y' a - Y a',
+// See separable_bound.hpp. With weights a_i b_j a patch is S = Y / (a b), and b is a constant along
+// u. Its derivatives along u are, with G = Y' a - Y a',
 //     S' = G / a^2,    S'' = (G' a - 2 G a') / a^3,
 // polynomials over polynomials with positive Bernstein coefficients: written in one degree, the
 // quotients of coefficients are the control points of a derivative, which lies in their hull. They

@@ -11,7 +11,7 @@ namespace simdbezier::detail {
 /// Bounds on the lengths of a patch's second derivatives in space, and on what its triangles are
 /// off besides, since weights are products but for rounding. All are infinite where they are none.
 ///
-/// The bound of group_bounds.hpp compares a sample with the point of its triangle that has the same
+/// The bound of group_bound.hpp compares a sample with the point of its triangle that has the same
 /// place among weighted corners. Where weights vary along u and points move along v, that point
 /// slides along v: by as much as 1 / (nu nv), on a cylinder, whose triangles are far closer to it.
 /// Derivatives in space know nothing of such a slide.
