@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/mesh/bounds/bound_parts.hpp"
 #include "src/mesh/bounds/vector_patch.hpp"
 
 namespace simdbezier::detail {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 
 #include "src/mesh/bounds/group_bound.hpp"
 #include "src/mesh/rates/filip_terms.hpp"

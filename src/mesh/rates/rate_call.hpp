@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <simdbezier/rates.hpp>

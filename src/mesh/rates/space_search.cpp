@@ -1,6 +1,5 @@
 // See space_bound.hpp: all cells of a patch, and the fewest that hold.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <simdbezier/mesh_layout.hpp>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "src/mesh/layout/mesh_data.hpp"
 #include "src/mesh/vertices/closed_grids.hpp"

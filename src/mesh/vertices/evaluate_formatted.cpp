@@ -1,6 +1,4 @@
 // See evaluate_mesh.hpp: vertices come to planes in a cache, and from there to their formats.
-#include <algorithm>
-
 #include <simdbezier/evaluate_mesh.hpp>
 
 #include "src/calls/call.hpp"
