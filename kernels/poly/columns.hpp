@@ -106,10 +106,10 @@ struct TurnedColumns {
 
   SIMDBEZIER_INLINE V replace(V inside, const T* pair) const {
     if (first) [[likely]] {
-      inside = with_first_lane(inside, pair);
+      inside = with_lane<0>(inside, pair);
     }
     if (last) [[likely]] {
-      inside = with_last_lane(inside, pair + 1);
+      inside = with_lane<kLanes<V> - 1>(inside, pair + 1);
     }
     return inside;
   }

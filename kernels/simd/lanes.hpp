@@ -170,16 +170,10 @@ SIMDBEZIER_INLINE unsigned lane_bits(MaskOf<vec<double>> mask) {
   return static_cast<unsigned>(_mm_movemask_pd(mask));
 }
 
-template <typename V>
-SIMDBEZIER_INLINE V with_first_lane(V v, const ScalarOf<V>* value) {
+template <std::size_t kLane, typename V>
+SIMDBEZIER_INLINE V with_lane(V v, const ScalarOf<V>* value) {
   Bits<V> bits = __builtin_bit_cast(Bits<V>, v);
-  bits[0] = *value;
-  return __builtin_bit_cast(V, bits);
-}
-template <typename V>
-SIMDBEZIER_INLINE V with_last_lane(V v, const ScalarOf<V>* value) {
-  Bits<V> bits = __builtin_bit_cast(Bits<V>, v);
-  bits[kLanes<V> - 1] = *value;
+  bits[kLane] = *value;
   return __builtin_bit_cast(V, bits);
 }
 #endif

@@ -23,6 +23,26 @@ inline constexpr std::size_t kQuads = kLanes<V> / kQuad<V>;
 
 // 128-bit lanes from memory -----------------------------------------------------------------------
 
+/// Loads lane q from the 128 bits at at(q).
+template <typename V, typename At>
+SIMDBEZIER_INLINE V quads_at(const At& at) {
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
+  const auto two = [&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(load_any<__m128>(at(q))),
+                                load_any<__m128>(at(q + 1)), 1);
+  };
+#endif
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  return __builtin_bit_cast(
+      V, _mm512_maskz_insertf32x8(0xffff, _mm512_castps256_ps512(two(0)), two(2), 1));
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+  return __builtin_bit_cast(V, two(0));
+#else
+  static_assert(kQuads<V> == 1);
+  return load_vector<V>(at(0));
+#endif
+}
+
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 /// Loads two adjacent lanes of two places.
 template <typename T>
@@ -60,20 +80,10 @@ SIMDBEZIER_INLINE void load_quads(const ScalarOf<V>* const from[kQuads<V>], V ch
     chunk[j] = __builtin_bit_cast(V, _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88));
     chunk[j + 1] = __builtin_bit_cast(V, _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd));
   }
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-  for (std::size_t j = 0; j < 4; ++j) {
-    const std::size_t at = j * kQuad<V>;
-    const __m256 first = _mm256_castps128_ps256(load_any<__m128>(from[0] + at));
-    chunk[j] =
-        __builtin_bit_cast(V, _mm256_insertf128_ps(first, load_any<__m128>(from[1] + at), 1));
-  }
 #else
   for (std::size_t j = 0; j < 4; ++j) {
-    alignas(64) ScalarOf<V> lanes[kLanes<V>];
-    for (std::size_t q = 0; q < kQuads<V>; ++q) {
-      __builtin_memcpy(lanes + q * kQuad<V>, from[q] + j * kQuad<V>, 16);
-    }
-    chunk[j] = load_vector<V>(lanes);
+    chunk[j] =
+        quads_at<V>([&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA { return from[q] + j * kQuad<V>; });
   }
 #endif
 }
@@ -179,26 +189,6 @@ SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
   for (std::size_t i = 0; i < 4; ++i) {
     four[i] = repeat_four<V>(values + 4 * i);
   }
-}
-
-/// Loads lane q from the 128 bits at at(q).
-template <typename V, typename At>
-SIMDBEZIER_INLINE V quads_at(const At& at) {
-#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
-  const auto two = [&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(load_any<__m128>(at(q))),
-                                load_any<__m128>(at(q + 1)), 1);
-  };
-#endif
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  return __builtin_bit_cast(
-      V, _mm512_maskz_insertf32x8(0xffff, _mm512_castps256_ps512(two(0)), two(2), 1));
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-  return __builtin_bit_cast(V, two(0));
-#else
-  static_assert(kQuads<V> == 1);
-  return load_vector<V>(at(0));
-#endif
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

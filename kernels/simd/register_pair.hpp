@@ -92,13 +92,13 @@ template <typename V>
 SIMDBEZIER_INLINE unsigned lane_bits(TwiceMask<V> mask) {
   return lane_bits(mask.low) | lane_bits(mask.high) << kLanes<V>;
 }
-template <typename V>
-SIMDBEZIER_INLINE RegisterPair<V> with_first_lane(RegisterPair<V> v, const ScalarOf<V>* value) {
-  return {with_first_lane(v.low, value), v.high};
-}
-template <typename V>
-SIMDBEZIER_INLINE RegisterPair<V> with_last_lane(RegisterPair<V> v, const ScalarOf<V>* value) {
-  return {v.low, with_last_lane(v.high, value)};
+template <std::size_t kLane, typename V>
+SIMDBEZIER_INLINE RegisterPair<V> with_lane(RegisterPair<V> v, const ScalarOf<V>* value) {
+  if constexpr (kLane < kLanes<V>) {
+    return {with_lane<kLane>(v.low, value), v.high};
+  } else {
+    return {v.low, with_lane<kLane - kLanes<V>>(v.high, value)};
+  }
 }
 #endif
 

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "kernels/simd/interleave.hpp"
+#include "kernels/simd/quad_transpose.hpp"
+#include "kernels/simd/repeat.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -46,23 +48,15 @@ SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[3], LinePart<T> (&lin
   line[2] = blend_line<2>(x, y, z, kLanes);
 }
 
-/// These two return the lower and the upper halves of a and b.
-template <typename Part>
-SIMDBEZIER_INLINE Part lower_halves(Part a, Part b) {
-  return __builtin_bit_cast(Part, _mm256_permute2f128_ps(__builtin_bit_cast(__m256, a),
-                                                         __builtin_bit_cast(__m256, b), 0x20));
-}
-template <typename Part>
-SIMDBEZIER_INLINE Part upper_halves(Part a, Part b) {
-  return __builtin_bit_cast(Part, _mm256_permute2f128_ps(__builtin_bit_cast(__m256, a),
-                                                         __builtin_bit_cast(__m256, b), 0x31));
-}
-
-/// The three pieces of 128 bits that two records are, of planes whose members are joined to pairs.
-SIMDBEZIER_INLINE void pieces_of(const __m256d (&pair)[3], LinePart<float> (&piece)[3]) {
-  piece[0] = __builtin_bit_cast(LinePart<float>, _mm256_unpacklo_pd(pair[0], pair[1]));
-  piece[1] = __builtin_bit_cast(LinePart<float>, _mm256_shuffle_pd(pair[2], pair[0], 0b1010));
-  piece[2] = __builtin_bit_cast(LinePart<float>, _mm256_unpackhi_pd(pair[1], pair[2]));
+/// Turns planes whose members are joined to pairs into pieces of 128 bits, three for two records.
+SIMDBEZIER_INLINE void form_pieces(LinePart<float> (&pair)[3]) {
+  const auto as_doubles = [&](std::size_t m) SIMDBEZIER_INLINE_LAMBDA {
+    return __builtin_bit_cast(__m256d, pair[m]);
+  };
+  const __m256d middle = _mm256_shuffle_pd(as_doubles(2), as_doubles(0), 0b1010);
+  pair[0] = zip<float, 2, false>(pair[0], pair[1]);
+  pair[2] = zip<float, 2, true>(pair[1], pair[2]);
+  pair[1] = __builtin_bit_cast(LinePart<float>, middle);
 }
 
 /// Puts six planes into records: in each half first, where a has the samples 0 1 (of doubles 0),
@@ -71,29 +65,20 @@ template <typename T>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[6], LinePart<T> (&line)[6]) {
   LinePart<T> a[3];
   LinePart<T> b[3];
+  repeat<3>([&](std::size_t m) SIMDBEZIER_INLINE_LAMBDA {
+    a[m] = zip<T, 1, false>(p[2 * m], p[2 * m + 1]);
+    b[m] = zip<T, 1, true>(p[2 * m], p[2 * m + 1]);
+  });
   if constexpr (kGroupLanes<T> == 4) {
-    const auto low = [&p](std::size_t m) SIMDBEZIER_INLINE_LAMBDA {
-      return _mm256_castps_pd(_mm256_unpacklo_ps(p[2 * m], p[2 * m + 1]));
-    };
-    const auto high = [&p](std::size_t m) SIMDBEZIER_INLINE_LAMBDA {
-      return _mm256_castps_pd(_mm256_unpackhi_ps(p[2 * m], p[2 * m + 1]));
-    };
-    pieces_of({low(0), low(1), low(2)}, a);
-    pieces_of({high(0), high(1), high(2)}, b);
-  } else {
-    a[0] = _mm256_unpacklo_pd(p[0], p[1]);
-    a[1] = _mm256_unpacklo_pd(p[2], p[3]);
-    a[2] = _mm256_unpacklo_pd(p[4], p[5]);
-    b[0] = _mm256_unpackhi_pd(p[0], p[1]);
-    b[1] = _mm256_unpackhi_pd(p[2], p[3]);
-    b[2] = _mm256_unpackhi_pd(p[4], p[5]);
+    form_pieces(a);
+    form_pieces(b);
   }
-  line[0] = lower_halves(a[0], a[1]);
-  line[1] = lower_halves(a[2], b[0]);
-  line[2] = lower_halves(b[1], b[2]);
-  line[3] = upper_halves(a[0], a[1]);
-  line[4] = upper_halves(a[2], b[0]);
-  line[5] = upper_halves(b[1], b[2]);
+  const LinePart<T> piece[6] = {a[0], a[1], a[2], b[0], b[1], b[2]};
+  constexpr std::size_t kAll = kPartLanes<T>;
+  repeat<3>([&](std::size_t m) SIMDBEZIER_INLINE_LAMBDA {
+    line[m] = zip<T, kAll / 2, false, kAll>(piece[2 * m], piece[2 * m + 1]);
+    line[3 + m] = zip<T, kAll / 2, true, kAll>(piece[2 * m], piece[2 * m + 1]);
+  });
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

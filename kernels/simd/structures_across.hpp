@@ -13,32 +13,14 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// Loads 128 bits at from, from + step, …, side by side. Steps may be signed or not.
 template <typename V, typename Step>
 SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, Step step) {
-  Bits<V> value;
-#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
-  const auto piece = [&](Step g)
-                         SIMDBEZIER_INLINE_LAMBDA { return load_any<__m128>(from + g * step); };
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  __m512 bits = _mm512_castps128_ps512(piece(0));
-  bits = _mm512_insertf32x4(bits, piece(1), 1);
-  bits = _mm512_insertf32x4(bits, piece(2), 2);
-  bits = _mm512_insertf32x4(bits, piece(3), 3);
-#else
-  const __m256 bits = _mm256_insertf128_ps(_mm256_castps128_ps256(piece(0)), piece(1), 1);
-#endif
-  __builtin_memcpy(&value, &bits, sizeof(value));
-#else
-  alignas(64) ScalarOf<V> lanes[kLanes<V>];
-  for (std::size_t q = 0; q < kQuads<V>; ++q) {
-    __builtin_memcpy(lanes + q * kQuad<V>, from + static_cast<Step>(q) * step, 16);
-  }
-  __builtin_memcpy(&value, lanes, sizeof(value));
-#endif
-  return value;
+  return __builtin_bit_cast(Bits<V>, quads_at<V>([&](std::size_t q) SIMDBEZIER_INLINE_LAMBDA {
+                              return from + static_cast<Step>(q) * step;
+                            }));
 }
 
 /// Stores what join_quads() loads.
 template <typename V, typename Step>
-SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, Step step) {
+SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, [[maybe_unused]] Step step) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   __m512 bits;
   __builtin_memcpy(&bits, &value, sizeof(bits));
@@ -52,11 +34,7 @@ SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, Step step) {
   store_any<false>(to, _mm256_castps256_ps128(bits));
   store_any<false>(to + step, _mm256_extractf128_ps(bits, 1));
 #else
-  alignas(64) ScalarOf<V> lanes[kLanes<V>];
-  __builtin_memcpy(lanes, &value, sizeof(value));
-  for (std::size_t q = 0; q < kQuads<V>; ++q) {
-    __builtin_memcpy(to + static_cast<Step>(q) * step, lanes + q * kQuad<V>, 16);
-  }
+  store_any<false>(to, value);
 #endif
 }
 

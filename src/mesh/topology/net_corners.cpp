@@ -13,15 +13,20 @@
 namespace simdbezier::detail {
 namespace {
 
+/// Whether two control points of a view are one.
+template <typename S>
+[[gnu::noinline]] bool are_one(const ControlNets<S>& nets, const S* a, const S* b) noexcept {
+  return are_one_point(a, b - a, 2, 3, nets.component_stride, nets.weights);
+}
+
 /// The way from an end of a side, whose values begin at `end`, to its first control point that is
 /// somewhere else; `stride` leads from one to the next.
 template <typename S>
 Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride, int degree) {
   Point3 way{};
   for (std::ptrdiff_t k = 1; k <= degree && !has_length(way); ++k) {
-    way = are_one_point(end, k * stride, 2, 3, nets.component_stride, nets.weights)
-              ? Point3{}
-              : point_of(nets, end + k * stride) - point_of(nets, end);
+    const S* const next = end + k * stride;
+    way = are_one(nets, end, next) ? Point3{} : point_of(nets, next) - point_of(nets, end);
   }
   return way;
 }
@@ -115,8 +120,8 @@ bool NetCorners<S>::ends_meet(std::size_t side) const noexcept {
   const auto at = views_.place(side / kPatchEdges);
   const ControlNets<S>& nets = *at.nets;
   const EdgeForm form(nets, static_cast<PatchEdge>(side % kPatchEdges));
-  return are_one_point(values_at(nets, at.patch, 0, 0) + form.first, form.degree * form.stride, 2,
-                       3, nets.component_stride, nets.weights);
+  const S* const first = values_at(nets, at.patch, 0, 0) + form.first;
+  return are_one(nets, first, first + form.degree * form.stride);
 }
 
 template <typename S>
