@@ -10,7 +10,7 @@
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. So go positions of floats on
 // AVX-512. AVX2, derivatives, and grids of two rows or columns, which are all border, take patches
-// as lanes: fast/small_grids_across.hpp. Doubles on AVX-512 have two groups, and tiles.
+// as lanes (fast/small_grids_across.hpp), and so do some doubles of AVX-512; others take tiles.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Rows that go straight to memory in order (streams_in_order() of grid/grid_kernel.hpp), plane by
-// plane: registers are turned to where lines are (simd/value_stream.hpp).
+// Rows that go straight to memory in order (StreamedOrder of grid/strategies.hpp), plane by plane:
+// registers are turned to where lines are (simd/value_stream.hpp).
 //
 // In staging such rows lie across lines, and a store across two lines waits until all streaming
 // stores before it have left, so that staging and arithmetic take their time one after the other.
