@@ -22,7 +22,7 @@ inline constexpr std::size_t kTrusted = static_cast<std::size_t>(-1);
 
 /// Where one vector-valued output goes: component c of sample k is the element k * stride behind
 /// the c-th pointer. All three null: not asked for. Vectors that are made from spans know their
-/// capacity, and calls with more samples return output_too_small.
+/// capacity, and calls with more samples return output_too_small. A stride may be negative.
 template <typename T>
 struct Vectors {
   T* x = nullptr;
