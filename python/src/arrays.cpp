@@ -57,7 +57,7 @@ struct Points {
 };
 
 /// All arrays of one argument, with one type.
-std::vector<Points> point_arrays(const GivenPoints& given, py::ssize_t dimensions) {
+std::vector<Points> given_points(const GivenPoints& given, py::ssize_t dimensions) {
   const auto& [points, weights, homogeneous] = given;
   const Weights inside = flag(homogeneous, "homogeneous") ? Weights::homogeneous : Weights::none;
   if (inside != Weights::none && !weights.is_none()) {
@@ -262,17 +262,17 @@ bool wants_float(const py::object& dtype, bool points_are_float) {
 }
 
 AnyPointViews<ControlNets> control_nets(const GivenPoints& given) {
-  return any_views_of<ControlNets>(point_arrays(given, 4));
+  return any_views_of<ControlNets>(given_points(given, 4));
 }
 
 AnyPointViews<ControlCurves> control_curves(const GivenPoints& given) {
   const py::array array = float_array(given.points, 3, "points");
-  return any_views_of<ControlCurves>(point_arrays({array, given.weights, given.homogeneous}, 3));
+  return any_views_of<ControlCurves>(given_points({array, given.weights, given.homogeneous}, 3));
 }
 
 OwnPoints own_points(const GivenPoints& given, py::ssize_t dimensions) {
   const py::array array = float_array(given.points, dimensions, "points");
-  std::vector<Points> all = point_arrays({array, given.weights, given.homogeneous}, dimensions);
+  std::vector<Points> all = given_points({array, given.weights, given.homogeneous}, dimensions);
   const Points& points = all.front();
   return {points.array.attr("copy")("C"), points.weights, components_of(points)};
 }
