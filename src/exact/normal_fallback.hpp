@@ -5,16 +5,15 @@
 
 namespace simdbezier::detail {
 
-/// Second look at one sample, from its patch's control points as given, the same on every machine:
-/// which coefficient SampleStatus is about (src/exact/normal_series.hpp), doubles with error bounds
-/// tell in most cases, and arithmetic modulo primes in the others (src/exact/leading_term.hpp).
-/// Outside of the patch, samples are degenerate, too, where numbers would have more than 100 000
-/// binary digits, or where a rational patch's weight is too close to zero for its sign to be known.
-/// Where a parameter is not finite, the normal is nan.
+/// Second look at one sample, from its patch's control points as given, the same on every machine.
 ///
-/// A patch without any normal is found to be one once for all of its samples (src/exact/
-/// zero_everywhere.hpp), as long as a thread asks about no other patch in between, since threads
-/// remember what they know of one patch.
+/// The normal is the first Taylor coefficient of du x dv that is not zero (normal_series.hpp): the
+/// very first is SampleStatus::regular, a later one limit, none degenerate. Doubles with error
+/// bounds find it in most cases, and arithmetic modulo primes in the others (leading_term.hpp). A
+/// sample outside of the patch is degenerate as well if numbers would have more than 100 000 binary
+/// digits, or if the sign of a weight is not certain. If a parameter is not finite, the normal is
+/// nan. That a patch has no normals is found once for all of its samples (zero_everywhere.hpp), as
+/// long as the thread asks about no other patch in between.
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 
