@@ -171,7 +171,9 @@ SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& t
 template <typename V>
 SIMDBEZIER_INLINE MaskOf<V> is_usual_size(V size) {
   using T = ScalarOf<V>;
-  return (size > broadcast<V>(kSafelySmall<T>)) & (size < broadcast<V>(kSafelyLarge<T>));
+  const MaskOf<V> above = size > broadcast<V>(kSafelySmall<T>);
+  const MaskOf<V> below = size < broadcast<V>(kSafelyLarge<T>);
+  return above & below;
 }
 
 template <typename T>
