@@ -142,8 +142,10 @@ Report run_view(const ControlNets<T>& nets, const MutableNets<T>& out, int degre
 template <typename T>
 Report run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int order_u,
                      int order_v, const RunOptions& options) noexcept {
-  if (const Status status = check_nets<T>(nets, {&out}, std::max(nets.degree_u - order_u, 1),
-                                          std::max(nets.degree_v - order_v, 1));
+  // Degrees have not been checked yet, and may be the least integer.
+  const auto left = [](int degree, int order) { return std::max(degree, order + 1) - order; };
+  if (const Status status =
+          check_nets<T>(nets, {&out}, left(nets.degree_u, order_u), left(nets.degree_v, order_v));
       !status) {
     return {status};
   }
