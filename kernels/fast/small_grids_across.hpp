@@ -6,7 +6,6 @@
 // need stands here, all else in fast/small_jets_across.hpp.
 #pragma once
 
-#include "kernels/drain/drain_kernel.hpp"
 #include "kernels/fast/small_grids.hpp"
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/simd/structures_across.hpp"

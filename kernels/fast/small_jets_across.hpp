@@ -2,6 +2,7 @@
 // and the sweep of all outputs.
 #pragma once
 
+#include "kernels/drain/drain_kernel.hpp"
 #include "kernels/fast/small_grids_across.hpp"
 #include "kernels/grid/tile_normals.hpp"
 

@@ -42,17 +42,6 @@ struct ColumnBuffer {
 template <typename V>
 using SingleColumnTile = ColumnTile<kLanes<V>, true, false, V>;
 
-/// Finds the polynomials in Y of a tile's columns.
-template <typename SomeTile, typename V>
-SIMDBEZIER_PART void tile_polynomial(const Component<ScalarOf<V>>& c, const SomeTile& tile,
-                                     V q[kOrder]) {
-  if constexpr (SomeTile::kSingle) {
-    single_column_polynomial(c, tile.column, q);
-  } else {
-    column_polynomial(c, tile.column, q);
-  }
-}
-
 /// Sweeps one component's positions. extra is the column behind the tile, ColumnPlanes or
 /// SquareColumn.
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
@@ -63,7 +52,11 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   V q[kOrder];
-  tile_polynomial(c, tile, q);
+  if constexpr (ThisTile::kSingle) {
+    single_column_polynomial(c, tile.column, q);
+  } else {
+    column_polynomial(c, tile.column, q);
+  }
   const LocalOrigin<V> origin = column_origin(c, tile.column);
   V shared = tile.column.x; // not used
   if constexpr (ThisTile::kShared) {

@@ -24,9 +24,9 @@ struct NormalSamples {
 /// What the rows of one tile have in common; kAny: groups with null planes are computed and
 /// dropped.
 ///
-/// Where a loop over components indexes polynomials, compilers may keep these in memory: in
-/// WebAssembly, and g++ 12 for SSE2, to a sixth of the speed. Written out, doubles of AVX2 lose 8
-/// %.
+/// Compilers may keep polynomials in memory if a loop over components indexes them. That leaves a
+/// sixth of the speed in WebAssembly and, by g++ 12, for SSE2. Doubles of AVX2 lose 8 % if the loop
+/// is written out.
 template <std::size_t kRows, bool kWhole, bool kExtra, bool kAny, bool kAsks, typename V,
           bool kStreams>
 struct NormalSweep {

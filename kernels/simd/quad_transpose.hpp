@@ -27,7 +27,7 @@ SIMDBEZIER_INLINE B zip(B a, B b) {
   (std::make_index_sequence<kAll>());
 }
 
-/// Transposes four registers in each kQuad values, or as much as two steps of zip() do of that.
+/// Result k: of the k-th fourth of each kQuad lanes, groups of four values, one of each register.
 template <typename T, std::size_t kQuad, typename B>
 SIMDBEZIER_INLINE void transpose_four(B m[4]) {
   const B low01 = zip<T, 1, false, kQuad>(m[0], m[1]);

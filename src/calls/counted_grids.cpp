@@ -4,15 +4,18 @@
 #include <new>
 
 namespace simdbezier::detail {
+namespace {
 
 /// Looks at all values instead of stopping at the first other one, so that it can be vectorised.
-static bool all_equal(std::span<const std::uint32_t> values) noexcept {
+bool all_equal(std::span<const std::uint32_t> values) noexcept {
   std::uint32_t differences = 0;
   for (const std::uint32_t value : values) {
     differences |= value ^ values[0];
   }
   return differences == 0;
 }
+
+} // namespace
 
 Status CountedGrids::count() noexcept {
   if (!equal_lengths_) {
