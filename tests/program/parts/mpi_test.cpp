@@ -43,7 +43,7 @@ TEST_P(Mpi, any_number_of_ranks_makes_the_same_bytes) {
       ASSERT_EQ(std::system(program.c_str()), 0) << program;
       for (const int ranks : kRanks) {
         for (const int patches : kPatches) {
-          if (!in_form(number++, 31)) {
+          if (!in_form(number++, 61)) {
             continue;
           }
           SCOPED_TRACE(model.name + " " + options + ", " + std::to_string(ranks) + " ranks, " +

@@ -1,10 +1,11 @@
 # See CMakeLists.txt beside this file. OTHER is gcc, clang or aarch64.
 #
-# The library is built at -O1, and with the widest instruction set of each class that this machine
-# has, unless SIMDBEZIER_LONG_TESTS is in the environment, as in ./run accuracy: all kernels of a
-# Release build take more than twice as long to compile. What differs between compilers and machines
-# (contraction, order of evaluation, instructions that stand for one another) shows at any level and
-# in any width; what only shows at -O3 are faults of the other optimiser.
+# The library is built at -O1, with the widest instruction set that this machine has, and with the
+# scalar one, whose bits are those of all sets without FMA. Where SIMDBEZIER_LONG_TESTS is in the
+# environment, as in ./run accuracy, it is a Release build of all kernels, which takes more than twice
+# as long to compile. What differs between compilers and machines (contraction, order of evaluation,
+# instructions that stand for one another) shows at any level and in any width; what only shows at
+# -O3 are faults of the other optimiser.
 include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
 set(configure -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_TOOLS=OFF -DSIMDBEZIER_BUILD_BENCH=OFF
               -DSIMDBEZIER_BUILD_EXAMPLES=OFF -DSIMDBEZIER_WERROR=ON)
@@ -14,7 +15,7 @@ else() # a Debug build has its kernels at -O1; a few large sources compile faste
   list(APPEND configure -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -DNDEBUG"
        -DCMAKE_UNITY_BUILD=ON)
   run(${HASH} --widest)
-  set(ISAS "${output}" scalar) # whose masks are bools: compilers warn about what registers need
+  set(ISAS ${output} scalar) # whose masks are bools: compilers warn about what registers need
   list(REMOVE_DUPLICATES ISAS)
 endif()
 set(emulator)
