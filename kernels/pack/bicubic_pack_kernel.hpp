@@ -169,7 +169,7 @@ private:
   SIMDBEZIER_INLINE void form(const Lanes& lanes) const {
     T* const coefficients = task_.coefficients + first_ * kNet;
     T* const edges = task_.edges + first_ * detail::kEdgeBlock;
-    NormalFloor<T> normal_floor;
+    NormalFloor<T, W> normal_floor;
     TinyEvenCoefficients<T> tiny;
     Wide corners[16];
     for (std::size_t c = 0; c < detail::kComponents; ++c) {

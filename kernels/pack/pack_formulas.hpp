@@ -11,6 +11,7 @@
 #include "kernels/pack/double_double.hpp"
 #include "kernels/simd/extrema.hpp"
 #include "src/storage/bicubic_layout.hpp"
+#include "src/storage/net_shape.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -67,17 +68,40 @@ SIMDBEZIER_INLINE Wide take_origin(W& constant) {
   return origin;
 }
 
+/// What packing in W may add to errors of derivatives, as a share of the largest control value. It
+/// is not relative to the hodograph: a large column that is constant in v leaves its roundings in
+/// dv. The factor is such that what passes the quick test is turned by 2^-7 at the most for it
+/// (2^-24 where W is pairs), by a bound that is far above what occurs.
+template <typename W>
+SIMDBEZIER_INLINE Wide packing_doubt(int degrees) {
+  constexpr bool kInPairs = sizeof(W) != sizeof(Wide);
+  return Wide((kInPairs ? 0x1p24 : 0x1p7) * detail::packing_error(kInPairs, degrees));
+}
+
+/// The largest differences of neighbours and one of the control points, in the max norm, by which
+/// the plain cross product of a polynomial patch is judged.
+struct DifferenceSizes {
+  Wide u = Wide(0.0);
+  Wide v = Wide(0.0);
+  Wide point = Wide(0.0);
+};
+
 /// Returns the value of |du x dv|^2 above which the plain cross product is good (2^-14 for float,
-/// 2^-40 for double, of what the hodographs allow), from what |du| and |dv| stay below.
+/// 2^-40 for double, of what the hodographs allow), from what |du| and |dv| stay below, or above
+/// which errors that packing in W has left count as little.
 ///
 /// It is infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e
 /// is x without its mantissa, and all products that pass the comparisons are exact.
-template <typename T>
-SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
+template <typename T, typename W>
+SIMDBEZIER_INLINE Wide normal_floor(const DifferenceSizes& size, int degree_u, int degree_v) {
   constexpr bool kSingle = sizeof(T) == sizeof(float);
   // Each factor and the product must leave room for squares above and below.
   const Wide lowest(kSingle ? 0x1p-40 : 0x1p-450);
   const Wide highest(kSingle ? 0x1p50 : 0x1p480);
+  const Wide m(static_cast<double>(degree_u));
+  const Wide n(static_cast<double>(degree_v));
+  const Wide hodograph_u = m * size.u;
+  const Wide hodograph_v = n * size.v;
   const Wide u = power_of_two_below(hodograph_u);
   const Wide v = power_of_two_below(hodograph_v);
   const Wide uv = u * v;
@@ -87,29 +111,32 @@ SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
   // Above it |du x dv| > 2^-7 (double: 2^-20) of uv, and so > 2^-9 (2^-22) of the product of what
   // |du| and |dv| stay below: errors, a few roundings of that product, turn the normal by little.
   const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
-  return select_where<Wide>(in_range, floor, Wide(std::numeric_limits<double>::infinity()));
+  // No control value is larger than one of them and all differences on the way to it.
+  const Wide most =
+      packing_doubt<W>(degree_u + degree_v) * (size.point + hodograph_u + hodograph_v);
+  const Wide packed = (Wide(2.0) * most) * (m * hodograph_v + n * hodograph_u);
+  return select_where<Wide>(in_range, larger_of<Wide>(packed * packed, floor),
+                            Wide(std::numeric_limits<double>::infinity()));
 }
 
-/// Finds the normal floor of bicubic patches.
-template <typename T>
+/// Finds the normal floor of bicubic patches, packed in W.
+template <typename T, typename W>
 class NormalFloor {
 public:
   /// Adds one component of the control points as they are stored, [j][i].
   SIMDBEZIER_INLINE void add(const Wide points[16]) {
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 3; ++i) {
-        size_u_ = larger_of<Wide>(magnitude(points[4 * j + i + 1] - points[4 * j + i]), size_u_);
-        size_v_ = larger_of<Wide>(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_v_);
+        size_.u = larger_of<Wide>(magnitude(points[4 * j + i + 1] - points[4 * j + i]), size_.u);
+        size_.v = larger_of<Wide>(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_.v);
       }
     }
+    size_.point = larger_of<Wide>(magnitude(points[0]), size_.point);
   }
-  SIMDBEZIER_INLINE Wide value() const {
-    return normal_floor<T>(Wide(3.0) * size_u_, Wide(3.0) * size_v_);
-  }
+  SIMDBEZIER_INLINE Wide value() const { return normal_floor<T, W>(size_, 3, 3); }
 
 private:
-  Wide size_u_ = Wide(0.0); ///< largest difference of neighbours, max norm
-  Wide size_v_ = Wide(0.0);
+  DifferenceSizes size_;
 };
 
 /// Returns what a floor of rational patches or curves is made of. It is infinity, which nothing

@@ -9,7 +9,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// Finds what the quick test of normals compares with, for patches in space; zero for others.
 ///
 /// Polynomial, one floor for the patch: |du| <= m max|P[j][i+1] - P[j][i]|, and du's error is some
-/// u times that.
+/// u times that, and what packing has left.
 ///
 /// Rational, two sizes, E_u w^2 and E_v w^2, because errors depend on the sample's weight. With
 /// h = w (P - O), which the kernels form beside w, and
@@ -26,12 +26,16 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// has c = 2^-10 (in double 2^-20, stricter): what passes needs no second look, as it is turned by
 /// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
 /// <= m (D + 2 B R) / w: there w itself is known well enough.
-template <typename T>
+///
+/// Errors of packing, a share e of the largest |P| times W in h and of W in w, add 6 m e |P| W / w
+/// to du. E_u is at least that in units of c: see packing_doubt().
+template <typename T, typename W>
 class ShapeFloor {
 public:
   ShapeFloor(const detail::NetShape& shape, bool origins, const Wide* weights)
-      : order_u_(shape.order_u()), order_v_(shape.order_v()), in_space_(shape.components == 3),
-        origins_(origins), weights_(shape.rational ? weights : nullptr) {}
+      : shape_(shape), order_u_(shape.order_u()), order_v_(shape.order_v()),
+        in_space_(shape.components == 3), origins_(origins),
+        weights_(shape.rational ? weights : nullptr) {}
 
   /// Adds one component of the control points, Cartesian, [j][i].
   void add(const Wide* points) {
@@ -44,8 +48,9 @@ public:
           weights_ == nullptr ? distance : larger_of<Wide>(weights_[a], weights_[b]) * distance,
           size);
     });
+    size_.point = larger_of<Wide>(magnitude(points[0]), size_.point);
     if (weights_ != nullptr) {
-      reach_ = larger_of<Wide>(reach_of(points), reach_);
+      add_reach(points);
     }
   }
 
@@ -55,15 +60,13 @@ public:
     if (!in_space_) {
       return;
     }
-    const Wide m(static_cast<double>(order_u_ - 1));
-    const Wide n(static_cast<double>(order_v_ - 1));
     if (weights_ == nullptr) {
-      floors[0] = normal_floor<T>(m * size_u_, n * size_v_);
+      floors[0] = normal_floor<T, W>(size_, shape_.degree_u, shape_.degree_v);
       return;
     }
-    const Wide steps_u = size_u_;
-    const Wide steps_v = size_v_;
-    size_u_ = size_v_ = Wide(0.0);
+    const Wide steps_u = size_.u;
+    const Wide steps_v = size_.v;
+    size_.u = size_.v = Wide(0.0);
     for_neighbours([&](std::size_t a, std::size_t b, Wide& turn) SIMDBEZIER_INLINE_LAMBDA {
       turn = larger_of<Wide>(magnitude(weights_[b] - weights_[a]), turn);
     });
@@ -72,32 +75,40 @@ public:
       heaviest = larger_of<Wide>(weights_[k], heaviest);
     }
     const Wide four_reaches = Wide(4.0) * reach_;
-    // This is sqrt(2) c, rounded up.
-    const Wide factor(sizeof(T) == sizeof(float) ? 0x1.7p-10 : 0x1.7p-20);
-    floors[0] =
-        error_size<T>(factor * (m * (steps_u + size_u_ * four_reaches)) * heaviest, heaviest);
-    floors[1] =
-        error_size<T>(factor * (n * (steps_v + size_v_ * four_reaches)) * heaviest, heaviest);
+    const Wide packed =
+        Wide(kSingle ? 0x6p10 : 0x6p20) *
+        (packing_doubt<W>(shape_.degree_u + shape_.degree_v) * (farthest_ * heaviest));
+    const auto floor = [&](int degree, Wide steps, Wide turn) {
+      // This is sqrt(2) c, rounded up.
+      const Wide factor(kSingle ? 0x1.7p-10 : 0x1.7p-20);
+      const Wide size = larger_of<Wide>(steps + turn * four_reaches, packed);
+      return error_size<T>(factor * (Wide(static_cast<double>(degree)) * size) * heaviest,
+                           heaviest);
+    };
+    floors[0] = floor(shape_.degree_u, steps_u, size_.u);
+    floors[1] = floor(shape_.degree_v, steps_v, size_.v);
   }
 
 private:
-  /// Calls f(a, b, size_u_ or size_v_) for all neighbours in u and in v.
+  static constexpr bool kSingle = sizeof(T) == sizeof(float);
+
+  /// Calls f(a, b, size_.u or size_.v) for all neighbours in u and in v.
   template <typename F>
   SIMDBEZIER_INLINE void for_neighbours(const F& f) {
     for (std::size_t j = 0; j < order_v_; ++j) {
       for (std::size_t i = 0; i < order_u_; ++i) {
         const std::size_t at = j * order_u_ + i;
         if (i + 1 < order_u_) {
-          f(at, at + 1, size_u_);
+          f(at, at + 1, size_.u);
         }
         if (j + 1 < order_v_) {
-          f(at, at + order_u_, size_v_);
+          f(at, at + order_u_, size_.v);
         }
       }
     }
   }
 
-  [[nodiscard]] Wide reach_of(const Wide* points) const {
+  void add_reach(const Wide* points) {
     Wide highest = points[0];
     Wide lowest = points[0];
     for (std::size_t k = 1; k < order_u_ * order_v_; ++k) {
@@ -106,18 +117,21 @@ private:
     }
     const Wide distance = larger_of<Wide>(magnitude(highest), magnitude(lowest));
     // Origins are rounded to T.
-    constexpr double kUnit = sizeof(T) == sizeof(float) ? 0x1p-24 : 0x1p-53;
-    return origins_ ? highest - lowest + Wide(kUnit) * distance : distance;
+    constexpr double kUnit = kSingle ? 0x1p-24 : 0x1p-53;
+    const Wide reach = origins_ ? highest - lowest + Wide(kUnit) * distance : distance;
+    reach_ = larger_of<Wide>(reach, reach_);
+    farthest_ = larger_of<Wide>(distance, farthest_);
   }
 
+  const detail::NetShape& shape_;
   std::size_t order_u_;
   std::size_t order_v_;
   bool in_space_;
   bool origins_;
-  const Wide* weights_;     ///< null for polynomials
-  Wide size_u_ = Wide(0.0); ///< largest step between neighbours, max norm
-  Wide size_v_ = Wide(0.0);
+  const Wide* weights_;  ///< null for polynomials
+  DifferenceSizes size_; ///< of neighbours, times weights where there are any
   Wide reach_ = Wide(0.0);
+  Wide farthest_ = Wide(0.0); ///< largest coordinate
 };
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

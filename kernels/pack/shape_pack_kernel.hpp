@@ -57,7 +57,7 @@ private:
 
   /// What is asked of all control points: the normal floor, and their sizes.
   struct PointSizes {
-    ShapeFloor<T> floor;
+    ShapeFloor<T, W> floor;
     ControlSizes<T> control;
 
     PointSizes(const detail::NetShape& shape, bool origins, const Wide* weights)
@@ -69,7 +69,7 @@ private:
     }
   };
 
-  void store_floors(ShapeFloor<T>& floor) const {
+  void store_floors(ShapeFloor<T, W>& floor) const {
     Wide floors[2];
     floor.finish(floors);
     for (std::size_t f = 0; f < shape_.floors(); ++f) {

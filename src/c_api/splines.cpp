@@ -112,7 +112,7 @@ simdbezier_status simdbezier_spline_span_count(const simdbezier_spline_surface* 
     require(spans_u != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans_u"});
     require(spans_v != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans_v"});
     require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
-    const SpanCounts counts = span_count(axes);
+    const SpanCounts counts = detail::spans_of(axes);
     *spans_u = counts.u;
     *spans_v = counts.v;
   });
@@ -124,7 +124,7 @@ simdbezier_status simdbezier_spline_curve_span_count(const simdbezier_spline_cur
     const SplineCurve<double> axis = axes_of(read(curve, kCurve));
     require(spans != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans"});
     require_spline(look_at_knots(axis), kCurve, kCurveNames);
-    *spans = span_count(axis).u;
+    *spans = detail::spans_of(detail::as_surface(axis)).u;
   });
 }
 

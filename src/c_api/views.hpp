@@ -20,6 +20,7 @@
 
 #include "src/c_api/structs.hpp"
 #include "src/output/output_list.hpp"
+#include "src/splines/spline_knots.hpp"
 
 namespace simdbezier::c_api {
 
@@ -196,7 +197,7 @@ std::size_t patches_in(const ControlNets<S>& nets) {
 }
 template <typename S>
 std::size_t patches_in(const SplineSurface<S>& surface) {
-  return span_count(surface).patches();
+  return detail::spans_of(surface).patches();
 }
 /// Finds the element of an array of nets or splines that holds a patch.
 template <typename View>

@@ -154,11 +154,14 @@ private:
       }
       position += sums.size + most;
     }
-    const double lost = shape_.cells() == 1 ? 0 : carried(control_.largest(c));
+    // In one cell, terms add up to all control values at least, whose higher orders cover this; of
+    // derivatives, the largest value is no part of the terms.
+    const bool halved = shape_.cells() > 1;
+    const double lost = halved || derivatives_ ? carried(control_.largest(c)) : 0;
     const auto bound = [&](double sum, double factor, double way) {
       return unless_overflow<T>(kRoundings * sum + kDenormals + factor * lost, way);
     };
-    return {bound(position, 1, sums.way + position),
+    return {bound(position, halved ? 1 : 0, sums.way + position),
             bound(sums.du, 2 * shape_.degree_u, sums.way_u),
             bound(sums.dv, 2 * shape_.degree_v, sums.way_v)};
   }

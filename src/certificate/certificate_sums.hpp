@@ -132,14 +132,11 @@ struct TermSums {
   }
 };
 
-/// The error of packed coefficients, for all terms of a polynomial together: they are sums of up to
-/// 2^degrees control values, at most `largest`, in double where T is float and else in
-/// double-double, rounded at each of about 2 degrees levels. Only products and halvings are inexact
-/// there. Derivatives have at most 2 n times as much, and second ones 4 n (n - 1) times.
+/// The error of packed coefficients, for all terms of a polynomial together, of control values up
+/// to `largest`.
 template <typename T>
 double carried_error(int degrees, double largest) {
-  constexpr double kUnit = sizeof(T) == sizeof(float) ? 0x1p-53 : 0x1p-104;
-  return std::ldexp(kUnit * (2 * degrees + 4) * largest, degrees) +
+  return packing_error(sizeof(T) == sizeof(double), degrees) * largest +
          std::ldexp(std::numeric_limits<double>::denorm_min(), degrees + 6);
 }
 
@@ -227,7 +224,8 @@ struct ControlValues {
       high = std::max(high, x);
     }
     const double origin = component < 3 ? std::fabs(all.relative_to[component]) : 0;
-    return high - low + 0x1p-51 * (std::max(-low, high) + origin);
+    return high - low + 0x1p-51 * (std::max(-low, high) + origin) +
+           4 * std::numeric_limits<double>::denorm_min();
   }
 
 private:

@@ -112,9 +112,7 @@ private:
 
   [[nodiscard]] ByOrder plain(std::size_t cell, std::size_t component) const {
     PolynomialBounds bounds = polynomial(cell, component);
-    if (shape_.cells() > 1) {
-      add_carried(control_.largest(component), bounds);
-    }
+    add_carried(control_.largest(component), bounds);
     if (shape_.origins) {
       const double o = std::fabs(origin(cell, component));
       bounds.error.at[0] += kUnit * (o + bounds.size.at[0]);
@@ -158,7 +156,7 @@ private:
     }
     const double by_inverse = w.error.at[0] / divisor + 2 * kUnit;
     ByOrder error;
-    const double position = 1.01 * (h.error.at[0] / divisor + most * by_inverse);
+    const double position = 1.01 * (h.error.at[0] / divisor + most * by_inverse) + kDenormals;
     // Ends are points, which are quotients of homogeneous ones less the set's origin; where two
     // halves meet, what h and w gave by three roundings.
     const double end = (shape_.cells() == 2 ? 3 : 2) * kUnit * (std::fabs(o) + most);
@@ -167,16 +165,18 @@ private:
     const double numerator = h.size.at[1] + most * w.size.at[1];
     const double first = numerator / divisor;
     error.at[1] = 1.01 * ((h.error.at[1] + most * w.error.at[1] + position * w.size.at[1] +
-                           per_step_ * kUnit * numerator) /
+                           per_step_ * kUnit * numerator + kDenormals) /
                               divisor +
-                          first * by_inverse);
+                          first * by_inverse) +
+                  kDenormals;
 
     const double second_numerator = h.size.at[2] + most * w.size.at[2] + 2 * first * w.size.at[1];
     error.at[2] = 1.01 * ((h.error.at[2] + most * w.error.at[2] + position * w.size.at[2] +
                            2 * (first * w.error.at[1] + error.at[1] * w.size.at[1]) +
-                           3 * per_step_ * kUnit * second_numerator) /
+                           3 * per_step_ * kUnit * second_numerator + kDenormals) /
                               divisor +
-                          second_numerator / divisor * by_inverse);
+                          second_numerator / divisor * by_inverse) +
+                  kDenormals;
     const double numerators[3] = {most + std::fabs(o), numerator + first,
                                   second_numerator + second_numerator / divisor};
     double way = 0; // derivatives take the lower ones

@@ -12,6 +12,7 @@
 #include "src/mesh/mesh_planner.hpp"
 #include "src/runtime/attempt.hpp"
 #include "src/runtime/fp_environment.hpp"
+#include "src/splines/spline_knots.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -140,7 +141,7 @@ private:
   Report cut_alike(std::span<const SplineSurface<S>> surfaces, const RunOptions& how) {
     std::size_t patches = 0;
     for (const SplineSurface<S>& surface : surfaces) {
-      patches += span_count(surface).patches(); // none where it is refused
+      patches += spans_of(surface).patches(); // none where it is refused
     }
     const SplineSurface<S>& like = surfaces.front();
     MutableNets<S> out = MutableNets<S>::packed(
@@ -154,7 +155,7 @@ private:
     }
     nets_.push_back(out);
     for (const SplineSurface<S>& surface : surfaces) {
-      errors_.insert(errors_.end(), span_count(surface).patches(), extraction_error(surface));
+      errors_.insert(errors_.end(), spans_of(surface).patches(), extraction_error(surface));
     }
     return {};
   }

@@ -64,7 +64,7 @@ Report evaluate_surface(const PatchSet<T>& set, const SplineSurface<S>& surface,
   if (!located) {
     return located;
   }
-  if (!places.move_to(first_patch, span_count(surface).patches(), set.size())) {
+  if (!places.move_to(first_patch, spans_of(surface).patches(), set.size())) {
     return {Status::bad_patch_range};
   }
   const std::vector<T> x = places.parameters<T>(0);
@@ -90,7 +90,7 @@ Report evaluate_curve(const CurveSet<T>& set, const SplineCurve<S>& curve,
   if (const Report located = locate(curve, t.size(), t.data(), places.view()); !located) {
     return located;
   }
-  if (!places.move_to(first_curve, span_count(curve).patches(), set.size())) {
+  if (!places.move_to(first_curve, spans_of(as_surface(curve)).patches(), set.size())) {
     return {Status::bad_patch_range};
   }
   const std::vector<T> x = places.parameters<T>(0);

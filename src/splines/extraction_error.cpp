@@ -91,10 +91,12 @@ double extraction_error(const SplineSurface<S>& surface) noexcept {
   // more.
   const double relative = spline_error(surface.degree_u, surface.degree_v, surface.weights) +
                           (sizeof(S) == sizeof(float) ? 0x1p-24 * (1 + 0x1p-20) : 0);
+  // Each sum of a mean, and each product, may lose half of a denormal besides.
+  const double lost = (surface.degree_u + surface.degree_v + 8) *
+                      static_cast<double>(std::numeric_limits<S>::denorm_min());
   const double off = relative * (whole + (rational ? heaviest * farthest : 0)) +
-                     4 * static_cast<double>(std::numeric_limits<S>::denorm_min()) *
-                         (1 + (rational ? farthest : 0));
-  const double least = lightest - relative * (rational ? heaviest : 0);
+                     lost * (std::sqrt(surface.components) + (rational ? farthest : 0));
+  const double least = lightest - (rational ? relative * heaviest + lost : 0);
   // Points of the patches that are means of one point are the one of these nearest to zero.
   const double merged =
       std::sqrt(3.0) * (surface.degree_u + surface.degree_v) * detail::merged_step(surface);

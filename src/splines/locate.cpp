@@ -49,6 +49,11 @@ Report find_places(const SplineSurface<S>& surface, std::size_t count, const dou
       return report;
     }
   }
+  const std::size_t patches =
+      knots[0].spans().size() * (directions == 1 ? 1 : knots[1].spans().size());
+  if (places.patch != nullptr && patches > std::size_t{1} << 32) {
+    return {Status::size_overflow}; // numbers of patches would wrap
+  }
   const auto patches_u = static_cast<std::uint32_t>(knots[0].spans().size());
   double* const local[2] = {places.u, places.v};
   double* const length[2] = {places.length_u, places.length_v};
@@ -70,7 +75,20 @@ Report find_places(const SplineSurface<S>& surface, std::size_t count, const dou
 }
 
 template <typename S>
-SpanCounts count_spans(const SplineSurface<S>& surface) noexcept try {
+SpanCounts spans_or_none(const SplineSurface<S>& surface) noexcept {
+  SpanCounts counts;
+  return guarded([&]() -> Report {
+    counts = spans_of(surface);
+    return {};
+  })
+             ? counts
+             : SpanCounts();
+}
+
+} // namespace
+
+template <typename S>
+SpanCounts spans_of(const SplineSurface<S>& surface) {
   const DefaultFpEnvironment environment;
   SpanCounts counts{0, 1};
   for (int d = 0; d < (surface.degree_v == 0 ? 1 : 2); ++d) {
@@ -82,21 +100,21 @@ SpanCounts count_spans(const SplineSurface<S>& surface) noexcept try {
     (d == 0 ? counts.u : counts.v) = knots.spans().size();
   }
   return counts;
-} catch (const std::bad_alloc&) {
-  return {};
 }
 
-} // namespace
+template SpanCounts spans_of(const SplineSurface<float>&);
+template SpanCounts spans_of(const SplineSurface<double>&);
+
 } // namespace detail
 
 template <typename S>
 SpanCounts span_count(const SplineSurface<S>& surface) noexcept {
-  return surface.degree_v == 0 ? SpanCounts() : detail::count_spans(surface);
+  return surface.degree_v == 0 ? SpanCounts() : detail::spans_or_none(surface);
 }
 
 template <typename S>
 SpanCounts span_count(const SplineCurve<S>& curve) noexcept {
-  return detail::count_spans(detail::as_surface(curve));
+  return detail::spans_or_none(detail::as_surface(curve));
 }
 
 template <typename S>

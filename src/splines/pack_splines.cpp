@@ -127,7 +127,7 @@ Report pack_list(const SplineList<S>& list, PatchSet<T>& set, const PackOptions&
   const int components = list.splines().empty() ? 3 : list.splines()[0].surface.components;
   Isa isa = Isa::automatic;
   if (const Report report = resolve_packing(options, components, isa); !report) {
-    return {report.status, 0, 0, report.component};
+    return report;
   }
   const std::vector<ControlNets<S>> views = views_of(list);
   auto storage = std::make_shared<SetStorage<T>>();

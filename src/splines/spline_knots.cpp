@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 
-Status check_points(const SplineAxis& axis) noexcept {
+} // namespace
+
+Status SplineKnots::check_points(const SplineAxis& axis) noexcept {
   if (axis.degree < 1 || axis.degree > kMostDegree) {
     return Status::bad_degree;
   }
@@ -19,8 +21,6 @@ Status check_points(const SplineAxis& axis) noexcept {
   }
   return axis.points > kMostPoints ? Status::size_overflow : Status::ok;
 }
-
-} // namespace
 
 Status SplineKnots::take_knots(const SplineAxis& axis, std::size_t& knot) {
   const std::size_t count = axis.points + 1 + (periodic_ ? 0 : static_cast<std::size_t>(degree_));
@@ -52,8 +52,11 @@ Status SplineKnots::take_knots(const SplineAxis& axis, std::size_t& knot) {
     begin = same ? begin : knots_[k];
     knots_[k] = begin;
   }
-  // Those at the end become the last one, so that the spline ends where its knots do.
-  std::replace(knots_.begin(), knots_.end(), begin, axis.knots.back());
+  // Those at the end of the domain become the last of them, so that it ends where it is given to.
+  const double end = knots_[points_];
+  const auto behind = std::upper_bound(knots_.begin(), knots_.end(), end);
+  const auto last = static_cast<std::size_t>(behind - knots_.begin()) - 1;
+  std::replace(knots_.begin(), behind, end, axis.knots[last]);
   return Status::ok;
 }
 
@@ -132,7 +135,11 @@ Status SplineKnots::build(const SplineAxis& axis, std::size_t& knot) {
   if (!range.empty() && !(inside && range.begin < range.end)) { // false for nan
     return Status::bad_range;
   }
-  find_spans(with_knots(range, axis.tolerance));
+  const Interval snapped = with_knots(range, axis.tolerance);
+  if (snapped.empty() && !range.empty()) { // both ends are one knot
+    return Status::bad_range;
+  }
+  find_spans(snapped);
   return spans_.empty() ? Status::bad_range : Status::ok;
 }
 

@@ -35,6 +35,8 @@ public:
   /// Checks the axis and finds its spans. Returns ok | bad_degree | bad_grid | size_overflow |
   /// bad_knots, with the number of the knot, | bad_range; may throw std::bad_alloc.
   [[nodiscard]] Status build(const SplineAxis& axis, std::size_t& knot);
+  /// ok | bad_degree | bad_grid | size_overflow: what build() checks before it looks at knots.
+  [[nodiscard]] static Status check_points(const SplineAxis& axis) noexcept;
 
   [[nodiscard]] const std::vector<SplineSpan>& spans() const noexcept { return spans_; }
   [[nodiscard]] int degree() const noexcept { return degree_; }
@@ -70,7 +72,9 @@ public:
       : spans_(knots.spans()), begin_(spans_.front().interval.begin),
         end_(spans_.back().interval.end), repeats_(axis.periodic && axis.range.empty()) {}
 
-  /// ok | bad_range | non_finite_input; finds the parameter's span.
+  /// ok | bad_range | non_finite_input; finds the parameter's span. Remainders are exact, and odd:
+  /// mirrored parameters are moved to mirrored places, from above to the end of the period and from
+  /// below to its beginning where both would do.
   [[nodiscard]] Status find(double parameter) noexcept {
     if (!std::isfinite(parameter)) {
       return Status::non_finite_input;
@@ -78,8 +82,12 @@ public:
     parameter_ = parameter;
     if (repeats_ && !(begin_ <= parameter && parameter <= end_)) {
       const double length = end_ - begin_;
-      parameter_ -= length * std::floor((parameter - begin_) / length);
-      parameter_ = std::min(std::max(parameter_, begin_), end_); // it is off by a rounding
+      const double near = parameter > end_ ? end_ : begin_;
+      double step = std::remainder(parameter, length) - std::remainder(near, length);
+      if (parameter > end_ ? step > 0 : step < 0) {
+        step -= std::copysign(length, step);
+      }
+      parameter_ = std::min(std::max(near + step, begin_), end_); // it is off by a rounding
     }
     if (!(begin_ <= parameter_ && parameter_ <= end_)) {
       return Status::bad_range;
@@ -146,6 +154,10 @@ SplineSurface<S> as_surface(const SplineCurve<S>& curve) noexcept {
   surface.memory = curve.memory;
   return surface;
 }
+
+/// What span_count() counts, of a curve as of a surface of degree 0 in v; may throw std::bad_alloc.
+template <typename S>
+[[nodiscard]] SpanCounts spans_of(const SplineSurface<S>& surface);
 
 /// What a step reports; out_of_memory where it throws.
 template <typename Step>

@@ -16,12 +16,18 @@ namespace {
 template <typename S>
 constexpr S kMostValue = sizeof(S) == sizeof(double) ? S(0x1p980) : S(0x1p127);
 
-/// Looks at every control value, and whether neighbours are one point.
+/// Means of smaller weights would lose digits, or vanish.
 template <typename S>
-Report inspect(PreparedSpline<S>& spline) noexcept {
+constexpr double kLeastWeight = sizeof(S) == sizeof(double) ? 0x1p-1000 : 0;
+
+/// Looks at every control value, and whether neighbours are one point. to: the form of results.
+template <typename S>
+Report inspect(PreparedSpline<S>& spline, Weights to) noexcept {
   const SplineSurface<S>& surface = spline.surface;
   const auto components = static_cast<std::size_t>(surface.components);
   const bool rational = surface.weights != Weights::none;
+  const bool weigh = surface.weights == Weights::cartesian;
+  const bool project = surface.weights == Weights::homogeneous && to == Weights::cartesian;
   for (std::size_t row = 0; row < surface.rows; ++row) {
     for (std::size_t column = 0; column < surface.columns; ++column) {
       const S* const point = spline.point(row, column);
@@ -29,17 +35,19 @@ Report inspect(PreparedSpline<S>& spline) noexcept {
         const S value = point[static_cast<std::ptrdiff_t>(c) * surface.component_stride];
         const bool is_weight = c == components;
         const auto number = static_cast<std::ptrdiff_t>(row * surface.columns + column);
-        if (!std::isfinite(value) || (is_weight && !(value > 0))) {
+        const bool too_light = !(value > 0) || static_cast<double>(value) < kLeastWeight<S>;
+        if (!std::isfinite(value) || (is_weight && too_light)) {
           return {is_weight ? Status::bad_weight : Status::non_finite_input, 0, number,
                   static_cast<int>(c)};
         }
-        const bool multiplied = surface.weights == Weights::cartesian && !is_weight;
-        const double factor =
-            multiplied
+        const double weight =
+            (weigh || project) && !is_weight
                 ? static_cast<double>(
                       point[static_cast<std::ptrdiff_t>(components) * surface.component_stride])
                 : 1;
-        if (std::fabs(static_cast<double>(value) * factor) > double{kMostValue<S>}) {
+        const auto size = std::fabs(static_cast<double>(value));
+        if (size * (weigh ? weight : 1) > double{kMostValue<S>} ||
+            (project && size / weight > double{kMostValue<S>})) {
           return {Status::coefficient_overflow, 0, number, static_cast<int>(c)};
         }
       }
@@ -58,13 +66,23 @@ Report inspect(PreparedSpline<S>& spline) noexcept {
 
 bool are_same(const SplineAxis& a, const SplineAxis& b) noexcept {
   return a.degree == b.degree && a.points == b.points && a.periodic == b.periodic &&
-         a.range == b.range && a.tolerance == b.tolerance && std::ranges::equal(a.knots, b.knots);
+         a.range == b.range && a.tolerance == b.tolerance &&
+         (a.knots.data() != nullptr || a.knots.empty()) && std::ranges::equal(a.knots, b.knots);
 }
 
 } // namespace
 
 template <typename S>
-Report SplineList<S>::add(const SplineSurface<S>& surface, int directions) {
+Report SplineList<S>::add(const SplineSurface<S>& surface, int directions, Weights to) {
+  // Points that are not there cost no tables of their knots.
+  for (int direction = 0; direction < directions; ++direction) {
+    if (const Status status = SplineKnots::check_points(axis_of(surface, direction)); !status) {
+      return {status, 0, 0, direction};
+    }
+  }
+  if (const Status status = check_places(one_net(surface)); !status) {
+    return {status};
+  }
   PreparedSpline<S> spline{surface, {}, {}, patches_, rows_, false};
   for (int direction = 0; direction < 2; ++direction) {
     const SplineAxis axis = axis_of(surface, direction);
@@ -89,10 +107,7 @@ Report SplineList<S>::add(const SplineSurface<S>& surface, int directions) {
       factors = built;
     }
   }
-  if (const Status status = check_places(one_net(surface)); !status) {
-    return {status};
-  }
-  if (const Report report = inspect(spline); !report) {
+  if (const Report report = inspect(spline, to); !report) {
     return report;
   }
   rows_ += spline.v->spans(); // below 2^31 each, of vectors that are in memory
@@ -106,10 +121,10 @@ Report SplineList<S>::add(const SplineSurface<S>& surface, int directions) {
 }
 
 template <typename S>
-Report SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
+Report SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces, Weights to) {
   splines_.reserve(surfaces.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (Report report = add(surfaces[k], 2); !report) {
+    if (Report report = add(surfaces[k], 2, to); !report) {
       report.item = k;
       return report;
     }
@@ -119,7 +134,7 @@ Report SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
 
 template <typename S>
 Report SplineList<S>::prepare(const SplineCurve<S>& curve) {
-  return add(as_surface(curve), 1);
+  return add(as_surface(curve), 1, curve.weights);
 }
 
 template <typename S>

@@ -61,8 +61,9 @@ template <typename S>
 class SplineList {
 public:
   /// Checks the splines and prepares them; the report names the first one at fault. May throw
-  /// std::bad_alloc.
-  [[nodiscard]] Report prepare(std::span<const SplineSurface<S>> surfaces);
+  /// std::bad_alloc. to: the form of weights that results will have.
+  [[nodiscard]] Report prepare(std::span<const SplineSurface<S>> surfaces,
+                               Weights to = Weights::homogeneous);
   [[nodiscard]] Report prepare(const SplineCurve<S>& curve);
 
   [[nodiscard]] const std::vector<PreparedSpline<S>>& splines() const noexcept { return splines_; }
@@ -82,7 +83,7 @@ public:
 
 private:
   /// directions: 2, or 1 of a curve, which has one row of points.
-  [[nodiscard]] Report add(const SplineSurface<S>& surface, int directions);
+  [[nodiscard]] Report add(const SplineSurface<S>& surface, int directions, Weights to);
 
   std::vector<PreparedSpline<S>> splines_;
   std::size_t patches_ = 0;

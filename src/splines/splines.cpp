@@ -71,7 +71,7 @@ Report cut_surfaces(std::span<const SplineSurface<T>> surfaces, const MutableNet
     }
   }
   SplineList<T> list;
-  if (const Report report = list.prepare(surfaces); !report) {
+  if (const Report report = list.prepare(surfaces, out.weights); !report) {
     return report;
   }
   if (!intervals.empty() && intervals.size() != list.patches()) {

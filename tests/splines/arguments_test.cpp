@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/splines/spline_models.hpp"
+#include "tests/support/random.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -87,6 +88,12 @@ const std::vector<BadInput>& bad_inputs() {
          g.surface.u_range = {-1, 2};
        },
        Status::bad_range},
+      {"RangeOfOneKnot",
+       [](Given& g) {
+         g.surface.knot_tolerance = 1e-6;
+         g.surface.u_range = {2 - 1e-7, 2 + 1e-7};
+       },
+       Status::bad_range},
       {"RangeBackwards",
        [](Given& g) {
          g.surface.v_range = {2, 1};
@@ -110,8 +117,23 @@ const std::vector<BadInput>& bad_inputs() {
        Status::size_overflow},
       {"ShortMemory", [](Given& g) { g.surface.memory = std::span(g.points).first(119); },
        Status::input_too_small},
+      {"ShortMemoryBeforeKnots", // whose tables could be large
+       [](Given& g) {
+         g.surface.memory = std::span(g.points).first(119);
+         g.knots_u[4] = 0.5;
+       },
+       Status::input_too_small},
       {"NotFinite", [](Given& g) { g.points[4 * 7 + 1] = kNan; }, Status::non_finite_input, 7, 1},
       {"WeightZero", [](Given& g) { g.points[4 * 9 + 3] = 0; }, Status::bad_weight, 9, 3},
+      {"WeightsVanishInMeans", [](Given& g) { g.points[4 * 9 + 3] = 5e-324; }, Status::bad_weight,
+       9, 3},
+      {"QuotientOverflows",
+       [](Given& g) {
+         g.out.weights = Weights::cartesian;
+         g.points[4 * 8 + 2] = 1e200;
+         g.points[4 * 8 + 3] = 1e-200;
+       },
+       Status::coefficient_overflow, 8, 2},
       {"ProductOverflows",
        [](Given& g) {
          g.surface.weights = g.out.weights = Weights::cartesian;
@@ -166,6 +188,43 @@ TEST(SplineArguments, TheSurfaceAtFaultIsNamed) {
   EXPECT_TRUE(set.empty());
 }
 
+// Knots of neighbours are compared, to build what follows from them once.
+TEST(SplineArguments, NullKnotsAreFoundInEverySurface) {
+  Given good;
+  SplineSurface<double> bad = good.surface;
+  bad.knots_u = std::span<const double>(static_cast<const double*>(nullptr), 9);
+  const SplineSurface<double> surfaces[] = {good.surface, bad};
+  PatchSet<double> set;
+  const Report report = pack(std::span<const SplineSurface<double>>(surfaces), set);
+  EXPECT_EQ(report.status, Status::null_input);
+  EXPECT_EQ(report.item, 1U);
+}
+
+TEST(SplineArguments, OptionsAtFaultNameNoPoint) {
+  Given given;
+  PatchSet<double> set;
+  PackOptions options;
+  options.relative_to[1] = kNan;
+  const Report report = pack(given.surface, set, {}, options);
+  EXPECT_EQ(report.status, Status::non_finite_input);
+  EXPECT_EQ(report.point, -1);
+  EXPECT_EQ(report.component, 1);
+}
+
+// 70 000 spans in each direction are 4.9 * 10^9 patches.
+TEST(SplineArguments, NumbersOfPatchesDoNotWrap) {
+  SplineSurface<float> surface;
+  surface.rows = surface.columns = 70001;
+  surface.degree_u = surface.degree_v = 1;
+  const double at = 69999.5;
+  std::uint32_t patch = 7;
+  double u = 7;
+  EXPECT_EQ(locate(surface, 1, &at, &at, {&patch}).status, Status::size_overflow);
+  EXPECT_EQ(patch, 7U);
+  EXPECT_TRUE(locate(surface, 1, &at, &at, {nullptr, &u}));
+  EXPECT_EQ(u, 0.5);
+}
+
 TEST(SplineArguments, PlacesAreInsideOfTheDomain) {
   Given given;
   std::uint32_t patch[3] = {7, 7, 7};
@@ -216,6 +275,71 @@ TEST(SplineArguments, PeriodicParametersAreMovedByPeriods) {
   EXPECT_EQ(patch[2], 4U);
   EXPECT_EQ(patch[3], 4U);
   EXPECT_EQ(u[3], 1);
+}
+
+// Whole periods are taken away exactly, whatever their number.
+TEST(SplineArguments, FarParametersAreMovedExactly) {
+  SplineCurve<double> curve;
+  std::vector<double> points(3 * 3, 1);
+  curve.points = points.data();
+  curve.count = 3;
+  curve.periodic = true;
+  std::uint32_t patch[3];
+  double u[3];
+  const double at[] = {1e16, -1e16, 0x1p60}; // 1, 2 and 1 modulo 3
+  ASSERT_TRUE(locate(curve, 3, at, {patch, u}));
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(patch[k] + u[k], k == 1 ? 2 : 1) << at[k];
+  }
+}
+
+// A mirrored spline has its mirrored parameters in mirrored places, on the seam as well.
+TEST(SplineArguments, MirroredParametersStayMirrored) {
+  Random random(17);
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<double> knots(5);
+    std::ranges::generate(knots, [&] { return 3 * random.symmetric(); });
+    std::ranges::sort(knots);
+    std::vector<double> mirrored(knots.rbegin(), knots.rend());
+    std::ranges::transform(mirrored, mirrored.begin(), std::negate<>());
+    const double period = knots.back() - knots.front();
+    const int periods = static_cast<int>(6 * random.symmetric());
+    double at = knots[static_cast<std::size_t>(round % 5)] + periods * period;
+    at = round % 2 == 0 ? at : std::nextafter(at, 100 * random.symmetric());
+    const double opposite = -at;
+    std::uint32_t patch[2];
+    double x[2];
+    for (int side = 0; side < 2; ++side) {
+      SplineCurve<double> curve;
+      curve.count = 4;
+      curve.degree = 2;
+      curve.periodic = true;
+      curve.knots = side == 0 ? knots : mirrored;
+      SplinePlaces places{&patch[side]};
+      places.centred_u = &x[side];
+      ASSERT_TRUE(locate(curve, 1, side == 0 ? &at : &opposite, places));
+    }
+    // An inner knot belongs to the patch on its right side.
+    const bool inner = std::fabs(x[0]) == 1 && patch[0] + patch[1] != 3;
+    EXPECT_EQ(patch[0] + patch[1], inner ? 4U : 3U) << round;
+    EXPECT_EQ(x[0], inner ? x[1] : -x[1]) << round;
+  }
+}
+
+// Knots may go on behind the domain.
+TEST(SplineArguments, TheDomainEndsWhereItIsGivenTo) {
+  const std::vector<double> knots = {0, 1, 2, 3, 4 - 1e-7, 4, 5, 6};
+  SplineCurve<double> curve;
+  curve.count = 5;
+  curve.degree = 2;
+  curve.knots = knots;
+  curve.knot_tolerance = 1e-6;
+  const double end = 4;
+  std::uint32_t patch;
+  double u;
+  ASSERT_TRUE(locate(curve, 1, &end, {&patch, &u}));
+  EXPECT_EQ(patch, 1U);
+  EXPECT_EQ(u, 1);
 }
 
 TEST(SplineArguments, KnotsWithinTheToleranceAreOne) {

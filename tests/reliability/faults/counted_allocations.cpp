@@ -8,12 +8,14 @@
 namespace {
 
 std::atomic<int> g_left{-1};
+std::atomic<bool> g_one_fails{false};
 std::atomic<long> g_live{0};
 
 constexpr std::size_t kAlignment = alignof(std::max_align_t);
 
 void* allocate_or_null(std::size_t bytes, std::size_t alignment) noexcept {
   if (g_left == 0) {
+    g_left = g_one_fails ? -1 : 0;
     return nullptr;
   }
   if (g_left > 0) {
@@ -42,7 +44,10 @@ void release(void* memory) {
 
 namespace simdbezier::tests {
 
-void allow_allocations(int number) { g_left = number; }
+void allow_allocations(int number, bool one_fails) {
+  g_left = number;
+  g_one_fails = one_fails;
+}
 long live_allocations() { return g_live; }
 
 } // namespace simdbezier::tests

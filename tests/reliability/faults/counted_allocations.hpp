@@ -3,8 +3,8 @@
 
 namespace simdbezier::tests {
 
-/// Allocations that still succeed; negative: all of them.
-void allow_allocations(int number);
+/// Allocations that still succeed; negative: all of them. Those behind fail, or only the first.
+void allow_allocations(int number, bool one_fails = false);
 /// Blocks that are allocated now.
 [[nodiscard]] long live_allocations();
 

@@ -10,13 +10,15 @@ namespace {
 
 class LibraryMemory : public ::testing::TestWithParam<Call> {
 protected:
-  /// Fails the first allocation, then the second, … until the call succeeds; returns how many.
-  static int fail_each(const Call& call, const Options& options, const Results& expected) {
+  /// Fails all allocations from the first on, then from the second on, … until the call succeeds;
+  /// returns how many. one_fails: the first, the second, … alone.
+  static int fail_each(const Call& call, const Options& options, const Results& expected,
+                       bool one_fails) {
     for (int allowed = 0; allowed < 1000; ++allowed) {
       Results results;
       const Results before = results;
       const long live = live_allocations();
-      allow_allocations(allowed);
+      allow_allocations(allowed, one_fails);
       const Status status = call.run(results, options);
       allow_allocations(-1);
       if (status == Status::ok) {
@@ -42,8 +44,10 @@ TEST_P(LibraryMemory, EachAllocationFailsOnce) {
     const Options options{.threads = threads};
     Results expected;
     EXPECT_EQ(to_string(call.run(expected, options)), to_string(Status::ok));
-    const int failed = fail_each(call, options, expected);
-    EXPECT_EQ(failed > 0, call.allocates) << failed << " allocations, " << threads << " threads";
+    for (const bool one_fails : {false, true}) {
+      const int failed = fail_each(call, options, expected, one_fails);
+      EXPECT_EQ(failed > 0, call.allocates) << failed << " allocations, " << threads << " threads";
+    }
   }
   EXPECT_EQ(live_allocations(), live) << "memory was lost";
 }
