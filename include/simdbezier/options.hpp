@@ -50,8 +50,8 @@ enum class Isa : std::uint8_t {
 /// Returns ok | unknown_isa | unsupported_isa; `chosen` is written on ok only.
 [[nodiscard]] SIMDBEZIER_API Status resolve_isa(Isa requested, Isa& chosen) noexcept;
 
-/// The instruction set that ran this thread's last call that evaluated samples or wrote triangles,
-/// whichever threads shared its work. Each answer is given once: Isa::automatic means that there
+/// The instruction set that ran this thread's last call that evaluated samples, wrote triangles or
+/// made nets, whichever threads shared its work. Each answer is given once: Isa::automatic means that there
 /// was no such call since the last question.
 [[nodiscard]] SIMDBEZIER_API Isa take_executed_isa() noexcept;
 

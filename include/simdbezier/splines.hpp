@@ -30,8 +30,8 @@
 //             whichever of u and v they call it, also if one runs the other way with exactly
 //             mirrored knots. Results do not depend on the instruction set, threads or other
 //             splines.
-//   Weights   must be above 0; products w P are rounded once to double before anything else, and
-//             those that S cannot hold are coefficient_overflow.
+//   Weights   must be above 0, doubles at least 2^-1000; products w P are rounded once to double
+//             before anything else, and those that S cannot hold are coefficient_overflow.
 //   Faults    control values must be finite; the first surface and point at fault is named.
 //   Source    L. Ramshaw, Blossoming: A Connect-the-Dots Approach to Splines, 1987; G. Farin,
 //             Curves and Surfaces for CAGD, 5th ed., 4.7 and 8.
@@ -88,7 +88,8 @@ struct SplineSurface {
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
   /// Neighbouring knots no further apart than this become the first of them, or at the end of the
-  /// domain the last. An end of a range that is this near to a knot becomes that knot.
+  /// domain the last. An end of a range that is this near to a knot becomes that knot (bad_range if
+  /// both ends become one).
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };
@@ -135,7 +136,8 @@ template <typename S>
 ///             bad_components (also: not those of `out`) | bad_weight | bad_grid (too few points) |
 ///             bad_knots | bad_range | bad_tolerance | bad_patch_range (`out` has another number of
 ///             nets) | unequal_lengths (`intervals`) | overlapping_outputs | non_finite_input |
-///             coefficient_overflow (a value, or a product w P, beyond 2^980 or, in float, 2^127)
+///             coefficient_overflow (a value, a product w P, or a quotient that `out` asks for,
+///             beyond 2^980 or, in float, 2^127)
 ///             | the statuses of running.
 /// Allocation: tables of the knots, and degree_v + 2 lines of Bézier points a thread; threads share
 ///             the rows of spans. Cost: about (degree_u + 1) (degree_v + 1)^2 products and sums a
@@ -193,7 +195,8 @@ struct SplinePlaces {
 /// Periodic: parameters outside of the period are moved by whole periods.
 /// U, V:     `count` values each, in any order, in the domain or range (else bad_range).
 /// Returns:  ok | bad_degree | bad_grid | null_input | bad_knots | bad_range | bad_tolerance |
-///           size_overflow | non_finite_input | out_of_memory. `point`: the parameter or knot.
+///           size_overflow (also: `patch` is asked for of more than 2^32 patches) |
+///           non_finite_input | out_of_memory. `point`: the parameter or knot.
 /// Cost:     a binary search for each parameter that is not in the span of the one before.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report locate(const SplineSurface<S>& surface, std::size_t count,

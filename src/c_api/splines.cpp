@@ -135,17 +135,20 @@ simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_surface* s
                                               const simdbezier_options* options) {
   return answer(__func__, [&] {
     require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
+    const auto given = read(out, kOut);
     const std::span<PatchInterval> places = intervals_at(intervals, intervals_length);
     const Options how = call_options_of(options);
-    with_array(surfaces, length, "surfaces",
-               [&]<typename S>(std::span<const SplineSurface<S>> views) {
-                 const MutableNets<S> nets = view_of<S>(read(out, kOut));
-                 const Report report = to_bezier(views, nets, places, how);
-                 if (!report) {
-                   require_surfaces(views);
-                   refuse(report, blamed_result(report, kOut), false);
-                 }
-               });
+    with_array(
+        surfaces, length, "surfaces",
+        [&]<typename S>(std::span<const SplineSurface<S>> views) {
+          const MutableNets<S> nets = view_of<S>(given);
+          const Report report = to_bezier(views, nets, places, how);
+          if (!report) {
+            require_surfaces(views);
+            refuse(report, blamed_result(report, kOut), false);
+          }
+        },
+        given.scalar);
   });
 }
 

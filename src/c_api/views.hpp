@@ -165,11 +165,12 @@ void reserve(std::vector<V>& values, std::size_t length) {
   }
 }
 
-/// body(std::span<const View>) with the views that an array of structs describes.
+/// body(std::span<const View>) with the views that an array of structs describes. none: the numbers
+/// of an array that has no element.
 template <typename Struct, typename Body>
-auto with_array(const Struct* array, std::size_t length, const char* name, Body body) {
-  const simdbezier_scalar scalar =
-      length == 0 ? SIMDBEZIER_F32 : read_element(array, 0, name).scalar;
+auto with_array(const Struct* array, std::size_t length, const char* name, Body body,
+                simdbezier_scalar none = SIMDBEZIER_F32) {
+  const simdbezier_scalar scalar = length == 0 ? none : read_element(array, 0, name).scalar;
   return with_scalar(scalar, Path{name, 0} / "scalar", [&]<typename S>() {
     std::vector<decltype(view_of<S>(read_element(array, 0, name)))> views;
     reserve(views, length);

@@ -20,6 +20,12 @@ TEST(CFaults, AreDescribedInOneLine) {
   EXPECT_EQ(simdbezier_last_fault(nullptr), SIMDBEZIER_NULL_OUTPUT);
   EXPECT_EQ(world.evaluate(), SIMDBEZIER_OK);
   EXPECT_STREQ(simdbezier_last_message(), "simdbezier_evaluate_grid: ok");
+  ASSERT_EQ(simdbezier_last_fault(&fault), SIMDBEZIER_OK);
+  EXPECT_STREQ(fault.function, "simdbezier_evaluate_grid");
+  EXPECT_STREQ(fault.argument, "");
+  EXPECT_EQ(fault.status, SIMDBEZIER_OK);
+  EXPECT_EQ(fault.point, 0);
+  EXPECT_EQ(fault.patch + static_cast<std::size_t>(fault.component), 0U);
 }
 
 TEST(CFaults, OfOneNetAmongSeveralAreFound) {

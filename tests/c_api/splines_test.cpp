@@ -82,6 +82,11 @@ TYPED_TEST(CSplines, BecomeNets) {
   expect_same_bits(found, expected, "nets");
   expect_same(intervals, expected_intervals);
   EXPECT_EQ(intervals[0].u_begin, 0.5);
+  // No splines have the numbers of what they become.
+  std::vector<T> nothing(1);
+  auto none = c_room(nothing, 3, 2, SIMDBEZIER_HOMOGENEOUS);
+  none.count = 0;
+  EXPECT_C_OK(simdbezier_spline_to_bezier(nullptr, 0, &none, nullptr, 0, nullptr));
 }
 
 TYPED_TEST(CSplines, AreLocatedAndEvaluated) {

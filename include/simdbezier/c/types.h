@@ -60,7 +60,8 @@ enum {
 // One line of English; never null, static lifetime.
 SIMDBEZIER_API const char* simdbezier_status_text(simdbezier_status status);
 
-// What went wrong in the last call of this thread that returned a status; all zero on ok.
+// What went wrong in the last call of this thread that returned a status. On ok, `function` names
+// that call, and all else is zero or empty.
 typedef struct simdbezier_fault {
   size_t struct_size;
   simdbezier_status status;
@@ -113,8 +114,8 @@ SIMDBEZIER_API int simdbezier_fuses_multiply_add(simdbezier_isa isa);
 SIMDBEZIER_API simdbezier_status simdbezier_resolve_isa(simdbezier_isa requested,
                                                         simdbezier_isa* chosen);
 
-// take_executed_isa(): the instruction set that ran this thread's last call that evaluated;
-// automatic: there was none since the last question.
+// take_executed_isa(): the instruction set that ran this thread's last call that evaluated samples,
+// wrote triangles or made nets; automatic: there was none since the last question.
 SIMDBEZIER_API simdbezier_isa simdbezier_take_executed_isa(void);
 
 // Destination of options.hpp.
