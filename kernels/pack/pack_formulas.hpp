@@ -11,7 +11,6 @@
 #include "kernels/pack/double_double.hpp"
 #include "kernels/simd/extrema.hpp"
 #include "src/storage/bicubic_layout.hpp"
-#include "src/storage/net_shape.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -68,42 +67,38 @@ SIMDBEZIER_INLINE Wide take_origin(W& constant) {
   return origin;
 }
 
-/// What packing in W may add to errors of derivatives, as a share of the largest control value. It
-/// is not relative to the hodograph: a large column that is constant in v leaves its roundings in
-/// dv. The factor is such that what passes the quick test is turned by 2^-7 at the most for it
-/// (2^-24 where W is pairs), by a bound that is far above what occurs.
+/// What packing in W may add to values, as a share of a sum of terms: the roundings of a sum, and
+/// `terms` as often as they count. It is not relative to hodographs: a large column that is
+/// constant in v leaves its roundings in dv. The factor is such that what passes the quick test is
+/// turned by 2^-7 at the most for it (2^-24 where W is pairs), by a bound that is far above what
+/// occurs.
 template <typename W>
-SIMDBEZIER_INLINE Wide packing_doubt(int degrees) {
+SIMDBEZIER_INLINE Wide packing_doubt(int degrees, double terms) {
   constexpr bool kInPairs = sizeof(W) != sizeof(Wide);
-  return Wide((kInPairs ? 0x1p24 : 0x1p7) * detail::packing_error(kInPairs, degrees));
+  return Wide((kInPairs ? 0x1p-80 : 0x1p-46) * (2 * degrees + 4) * terms);
 }
 
-/// The largest differences of neighbours and one of the control points, in the max norm, by which
-/// the plain cross product of a polynomial patch is judged.
+/// The largest differences of neighbours in the max norm, by which the plain cross product of a
+/// polynomial patch is judged.
 struct DifferenceSizes {
   Wide u = Wide(0.0);
   Wide v = Wide(0.0);
-  Wide point = Wide(0.0);
 };
 
 /// Returns the value of |du x dv|^2 above which the plain cross product is good (2^-14 for float,
 /// 2^-40 for double, of what the hodographs allow), from what |du| and |dv| stay below, or above
-/// which errors that packing in W has left count as little.
+/// which errors of values by packing, at most `packed`, count as little.
 ///
 /// It is infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e
 /// is x without its mantissa, and all products that pass the comparisons are exact.
-template <typename T, typename W>
-SIMDBEZIER_INLINE Wide normal_floor(const DifferenceSizes& size, int degree_u, int degree_v) {
+template <typename T>
+SIMDBEZIER_INLINE Wide normal_floor(Wide m, Wide n, const DifferenceSizes& size, Wide packed) {
   constexpr bool kSingle = sizeof(T) == sizeof(float);
   // Each factor and the product must leave room for squares above and below.
   const Wide lowest(kSingle ? 0x1p-40 : 0x1p-450);
   const Wide highest(kSingle ? 0x1p50 : 0x1p480);
-  const Wide m(static_cast<double>(degree_u));
-  const Wide n(static_cast<double>(degree_v));
-  const Wide hodograph_u = m * size.u;
-  const Wide hodograph_v = n * size.v;
-  const Wide u = power_of_two_below(hodograph_u);
-  const Wide v = power_of_two_below(hodograph_v);
+  const Wide u = power_of_two_below(m * size.u);
+  const Wide v = power_of_two_below(n * size.v);
   const Wide uv = u * v;
   const MaskOf<Wide> in_range = (u >= lowest * lowest) & (u <= highest * highest) &
                                 (v >= lowest * lowest) & (v <= highest * highest) & (uv >= lowest) &
@@ -111,11 +106,9 @@ SIMDBEZIER_INLINE Wide normal_floor(const DifferenceSizes& size, int degree_u, i
   // Above it |du x dv| > 2^-7 (double: 2^-20) of uv, and so > 2^-9 (2^-22) of the product of what
   // |du| and |dv| stay below: errors, a few roundings of that product, turn the normal by little.
   const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
-  // No control value is larger than one of them and all differences on the way to it.
-  const Wide most =
-      packing_doubt<W>(degree_u + degree_v) * (size.point + hodograph_u + hodograph_v);
-  const Wide packed = (Wide(2.0) * most) * (m * hodograph_v + n * hodograph_u);
-  return select_where<Wide>(in_range, larger_of<Wide>(packed * packed, floor),
+  // Derivatives err by 2 m and 2 n as much as values, and so |du x dv| by this.
+  const Wide lost = (packed + packed) * ((m * n) * (size.u + size.v));
+  return select_where<Wide>(in_range, larger_of<Wide>(lost * lost, floor),
                             Wide(std::numeric_limits<double>::infinity()));
 }
 
@@ -131,12 +124,18 @@ public:
         size_.v = larger_of<Wide>(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_.v);
       }
     }
-    size_.point = larger_of<Wide>(magnitude(points[0]), size_.point);
+    point_ = larger_of<Wide>(magnitude(points[0]), point_);
   }
-  SIMDBEZIER_INLINE Wide value() const { return normal_floor<T, W>(size_, 3, 3); }
+  SIMDBEZIER_INLINE Wide value() const {
+    // No control value is larger than one of them and all differences on the way to it.
+    const Wide three(3.0);
+    const Wide most = point_ + three * (size_.u + size_.v);
+    return normal_floor<T>(three, three, size_, packing_doubt<W>(6, 0x1p6) * most);
+  }
 
 private:
   DifferenceSizes size_;
+  Wide point_ = Wide(0.0); ///< one of the control points
 };
 
 /// Returns what a floor of rational patches or curves is made of. It is infinity, which nothing

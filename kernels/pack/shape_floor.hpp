@@ -27,8 +27,11 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
 /// <= m (D + 2 B R) / w: there w itself is known well enough.
 ///
-/// Errors of packing, a share e of the largest |P| times W in h and of W in w, add 6 m e |P| W / w
-/// to du. E_u is at least that in units of c: see packing_doubt().
+/// Errors of packing. Let s be the sum of all terms of a packed polynomial, at their largest. No
+/// control value is larger, nor any coefficient of a row or a column on the way, so that both
+/// directions together leave at most (2^m + 2^n) s times the roundings of a sum (packing_doubt()).
+/// If that is e_h in h and e_w in w, they add 6 m (e_h + R e_w) / w to du: E_u is at least that in
+/// units of c.
 template <typename T, typename W>
 class ShapeFloor {
 public:
@@ -48,10 +51,22 @@ public:
           weights_ == nullptr ? distance : larger_of<Wide>(weights_[a], weights_[b]) * distance,
           size);
     });
-    size_.point = larger_of<Wide>(magnitude(points[0]), size_.point);
     if (weights_ != nullptr) {
       add_reach(points);
     }
+  }
+  /// Adds the coefficients of a cell, [l][k], of a component or of the weight.
+  void add_terms(const W* values, bool is_weight = false) {
+    Wide sum(0.0);
+    for (std::size_t l = order_v_; l-- > 0;) {
+      Wide row(0.0);
+      for (std::size_t k = order_u_; k-- > 0;) {
+        row = Wide(0.5) * row + magnitude(to_wide(values[l * order_u_ + k]));
+      }
+      sum = Wide(0.5) * sum + row;
+    }
+    Wide& largest = is_weight ? weight_terms_ : terms_;
+    largest = larger_of<Wide>(sum, largest);
   }
 
   /// Finds as many floors as NetShape::floors() says.
@@ -60,8 +75,14 @@ public:
     if (!in_space_) {
       return;
     }
+    const Wide m(static_cast<double>(shape_.degree_u));
+    const Wide n(static_cast<double>(shape_.degree_v));
+    const double halves = shape_.cells() > 1 ? 2 : 1; // whose parameters run twice as fast
+    const Wide doubt = packing_doubt<W>(
+        shape_.degree_u + shape_.degree_v,
+        halves * static_cast<double>((1U << shape_.degree_u) + (1U << shape_.degree_v)));
     if (weights_ == nullptr) {
-      floors[0] = normal_floor<T, W>(size_, shape_.degree_u, shape_.degree_v);
+      floors[0] = normal_floor<T>(m, n, size_, doubt * terms_);
       return;
     }
     const Wide steps_u = size_.u;
@@ -76,17 +97,15 @@ public:
     }
     const Wide four_reaches = Wide(4.0) * reach_;
     const Wide packed =
-        Wide(kSingle ? 0x6p10 : 0x6p20) *
-        (packing_doubt<W>(shape_.degree_u + shape_.degree_v) * (farthest_ * heaviest));
-    const auto floor = [&](int degree, Wide steps, Wide turn) {
+        Wide(kSingle ? 0x6p10 : 0x6p20) * (doubt * (terms_ + reach_ * weight_terms_));
+    const auto floor = [&](Wide degree, Wide steps, Wide turn) {
       // This is sqrt(2) c, rounded up.
       const Wide factor(kSingle ? 0x1.7p-10 : 0x1.7p-20);
       const Wide size = larger_of<Wide>(steps + turn * four_reaches, packed);
-      return error_size<T>(factor * (Wide(static_cast<double>(degree)) * size) * heaviest,
-                           heaviest);
+      return error_size<T>(factor * (degree * size) * heaviest, heaviest);
     };
-    floors[0] = floor(shape_.degree_u, steps_u, size_.u);
-    floors[1] = floor(shape_.degree_v, steps_v, size_.v);
+    floors[0] = floor(m, steps_u, size_.u);
+    floors[1] = floor(n, steps_v, size_.v);
   }
 
 private:
@@ -120,7 +139,6 @@ private:
     constexpr double kUnit = kSingle ? 0x1p-24 : 0x1p-53;
     const Wide reach = origins_ ? highest - lowest + Wide(kUnit) * distance : distance;
     reach_ = larger_of<Wide>(reach, reach_);
-    farthest_ = larger_of<Wide>(distance, farthest_);
   }
 
   const detail::NetShape& shape_;
@@ -131,7 +149,8 @@ private:
   const Wide* weights_;  ///< null for polynomials
   DifferenceSizes size_; ///< of neighbours, times weights where there are any
   Wide reach_ = Wide(0.0);
-  Wide farthest_ = Wide(0.0); ///< largest coordinate
+  Wide terms_ = Wide(0.0); ///< largest sum of a component's terms
+  Wide weight_terms_ = Wide(0.0);
 };
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -39,7 +39,7 @@ public:
     PointSizes sizes(shape_, task_.origins != nullptr, weights_);
     sizes.control.add_weights(weights_, shape_.rational ? shape_.points() : 0);
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
-      pack_cell(cell, cell == 0 ? &sizes : nullptr);
+      pack_cell(cell, sizes);
     }
     collapsed_.pack();
     store_floors(sizes.floor);
@@ -94,8 +94,8 @@ private:
     }
   }
 
-  /// sizes: null, or what looks at the control points that are read.
-  void pack_cell(std::size_t cell, PointSizes* sizes) {
+  /// sizes: looks at what is read and formed.
+  void pack_cell(std::size_t cell, PointSizes& sizes) {
     const std::size_t patch_stride = shape_.coefficients();
     matrices_.begin(task_.coefficients + first_ * patch_stride + cell * shape_.cell_coefficients(),
                     patch_stride, count_);
@@ -114,12 +114,14 @@ private:
       side_weights_[0] = cell_weights_[0];
       side_weights_[1] = cell_weights_[order_u_ - 1];
       form_channel(shape_, cell_weights_, edge_weights_);
+      sizes.floor.add_terms(cell_weights_, true);
     }
     for (std::size_t c = 0; c < components_; ++c) {
       read_cell_component(cell, c, corners, sizes);
       side_values_[0] = values_[0];
       side_values_[1] = values_[order_u_ - 1];
       form_channel(shape_, values_, edges_);
+      sizes.floor.add_terms(values_);
       if (task_.origins != nullptr) {
         split_origins(cell, c);
       }
@@ -158,10 +160,10 @@ private:
   }
 
   /// Reads one component's control values of a cell, and its corners, which are points.
-  void read_cell_component(std::size_t cell, std::size_t c, Wide* corners, PointSizes* sizes) {
+  void read_cell_component(std::size_t cell, std::size_t c, Wide* corners, PointSizes& sizes) {
     read_component(c);
-    if (sizes != nullptr) {
-      sizes->add(values_, points_, shape_.points());
+    if (cell == 0) {
+      sizes.add(values_, points_, shape_.points());
     }
     take_cell(values_, cell);
     for (std::size_t corner = 0; corner < 4; ++corner) {

@@ -24,14 +24,6 @@ inline constexpr int kMostWholeDegree = 5;
 /// Values of T in whole cache lines, for float and double alike.
 constexpr std::size_t whole_blocks(std::size_t values) { return (values + 15) / 16 * 16; }
 
-/// The error of packed coefficients, for all terms of a polynomial together, as a share of the
-/// largest control value: they are sums of up to 2^degrees control values, each rounded, in double
-/// or in pairs of doubles, at about 2 degrees levels. Only products and halvings are inexact in
-/// pairs. Derivatives have at most 2 n times as much, and second ones 4 n (n - 1) times.
-constexpr double packing_error(bool in_pairs, int degrees) {
-  return (in_pairs ? 0x1p-104 : 0x1p-53) * (2 * degrees + 4) * static_cast<double>(1ULL << degrees);
-}
-
 /// Layouts, all in elements:
 ///   coefficients    [patch][cell][channel][power k of X][power l of Y]
 ///   edges           [patch][cell]{ [channel][power][edge v=0, v=1, u=0, u=1], [channel][corner] }
