@@ -51,8 +51,8 @@ enum class Isa : std::uint8_t {
 [[nodiscard]] SIMDBEZIER_API Status resolve_isa(Isa requested, Isa& chosen) noexcept;
 
 /// The instruction set that ran this thread's last call that evaluated samples, wrote triangles or
-/// made nets, whichever threads shared its work. Each answer is given once: Isa::automatic means that there
-/// was no such call since the last question.
+/// made nets, whichever threads shared its work. Each answer is given once: Isa::automatic means
+/// that there was no such call since the last question.
 [[nodiscard]] SIMDBEZIER_API Isa take_executed_isa() noexcept;
 
 /// On how many threads and on which instruction set a call runs. Neither changes a bit of the

@@ -51,8 +51,11 @@ Report inspect(PreparedSpline<S>& spline, Weights to) noexcept {
           return {Status::coefficient_overflow, 0, number, static_cast<int>(c)};
         }
       }
-      const S* const neighbours[] = {column > 0 ? spline.point(row, column - 1) : nullptr,
-                                     row > 0 ? spline.point(row - 1, column) : nullptr};
+      // The last points of periodic directions are followed by the first ones.
+      const S* const neighbours[] = {
+          column > 0 || surface.periodic_u ? spline.point(row, column + surface.columns - 1)
+                                           : nullptr,
+          row > 0 || surface.periodic_v ? spline.point(row + surface.rows - 1, column) : nullptr};
       for (const S* const other : neighbours) {
         spline.has_poles =
             spline.has_poles || (rational && other != nullptr &&

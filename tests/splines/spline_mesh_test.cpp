@@ -185,6 +185,41 @@ void expect_pole_within(double unit) {
   EXPECT_GE(extraction_error(surface), 11 * unit); // of means by 1/3 and 2/3
   EXPECT_LE(extraction_error(surface), 200 * unit);
 }
+// Where a periodic spline closes, its last and its first points may be one with other weights.
+TEST(SplinePoles, StayOneAcrossTheSeam) {
+  Random random(23);
+  std::size_t odd = 0; // means that are another point
+  for (int round = 0; round < 100; ++round) {
+    const double apex = random.unit() + 1;
+    const double weight[2] = {random.unit() + 0.5, random.unit() + 0.5};
+    std::vector<double> points; // x, w: two rows of four columns
+    for (int row = 0; row < 2; ++row) {
+      for (const double w : {weight[0], 1.0, 2.0, weight[1]}) {
+        const bool is_apex = w == weight[0] || w == weight[1];
+        points.insert(points.end(), {is_apex ? apex + row : random.unit(), w});
+      }
+    }
+    SplineSurface<double> surface;
+    surface.points = points.data();
+    surface.rows = 2;
+    surface.columns = 4;
+    surface.row_stride = 8;
+    surface.point_stride = 2;
+    surface.components = 1;
+    surface.weights = Weights::cartesian;
+    surface.periodic_u = true;
+    surface.degree_u = 2;
+    surface.degree_v = 1;
+    std::vector<double> nets(4 * 12);
+    ASSERT_TRUE(to_bezier(
+        surface, MutableNets<double>::packed(nets.data(), 4, 2, 1, 1, Weights::homogeneous)));
+    const double* const end = nets.data() + 2 * 12 + 4; // of the piece of points 2, 3, 0
+    EXPECT_EQ(end[0], apex * end[1]);
+    odd += (weight[0] * apex + weight[1] * apex) / 2 != apex * ((weight[0] + weight[1]) / 2);
+  }
+  EXPECT_GT(odd, 10U);
+}
+
 TEST(SplineMeshBounds, CountWhatPolesLose) {
   expect_pole_within<float>(0x1p-24);
   expect_pole_within<double>(0x1p-53);
