@@ -27,6 +27,12 @@ A mesh stays within a tolerance of the surface, and says how far it is at most:
 >>> mesh.positions.shape, mesh.triangles.shape, mesh.deviation < 1e-3
 ((6, 3), (4, 3), True)
 
+Polylines stay within a tolerance of curves:
+
+>>> lines = simdbezier.flatten(points[0], tolerance=1e-3)     # curves, points, x y z
+>>> lines.points.shape, lines.first, lines[3].shape
+((8, 3), array([0, 2, 4, 6, 8]), (2, 3))
+
 B-splines and NURBS with knots are evaluated in their own parameters, U along a row of the points:
 
 >>> spline = simdbezier.SplineSurface(numpy.arange(60.0).reshape(5, 4, 3), degrees=(3, 2))
@@ -44,6 +50,7 @@ from ._core import (
     Mesh,
     PatchIndexError,
     PatchSet,
+    Polylines,
     SplineCurve,
     SplineSurface,
     __version__,
@@ -51,6 +58,7 @@ from ._core import (
     control_boxes,
     elevate,
     flatness,
+    flatten,
     hodograph_u,
     hodograph_v,
     reverse_u,
@@ -70,12 +78,14 @@ __all__ = [
     'Mesh',
     'PatchIndexError',
     'PatchSet',
+    'Polylines',
     'SplineCurve',
     'SplineSurface',
     'available_isas',
     'control_boxes',
     'elevate',
     'flatness',
+    'flatten',
     'hodograph_u',
     'hodograph_v',
     'reverse_u',

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Iterable, Optional, Sequence, Union
+from typing import Any, Iterable, Iterator, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -11,6 +11,10 @@ _Nets = Union[ArrayLike, Sequence[NDArray[Any]]]
 _Names = Union[str, Iterable[str]]
 _Arrays = dict[str, NDArray[Any]]
 _Out = Optional[dict[str, NDArray[Any]]]
+# Orders in u and in v, and the arrays of these derivatives.
+_Orders = Optional[Iterable[tuple[int, int]]]
+_Derivatives = dict[tuple[int, int], NDArray[Any]]
+_DerivativeOut = Optional[_Derivatives]
 # Control points, or with weights beside them a pair of points and weights.
 _Points = Any
 
@@ -56,7 +60,24 @@ class PatchSet:
         out: _Out = None,
         threads: int = 0,
     ) -> _Arrays: ...
-    def error_bounds(self, patch: int) -> dict[str, NDArray[np.float64]]: ...
+    def evaluate_derivatives(
+        self,
+        patch: Union[int, ArrayLike],
+        u: ArrayLike,
+        v: ArrayLike,
+        derivatives: _Orders,
+        out: _DerivativeOut = None,
+        threads: int = 0,
+    ) -> _Derivatives: ...
+    def evaluate_grid_derivatives(
+        self,
+        nu: Union[int, ArrayLike],
+        nv: Union[int, ArrayLike],
+        derivatives: _Orders,
+        out: _DerivativeOut = None,
+        threads: int = 0,
+    ) -> _Derivatives: ...
+    def error_bounds(self, patch: Optional[int] = None) -> dict[str, NDArray[np.float64]]: ...
 
 class CurveSet:
     def __init__(
@@ -90,7 +111,7 @@ class CurveSet:
         out: _Out = None,
         threads: int = 0,
     ) -> _Arrays: ...
-    def error_bounds(self, curve: int) -> dict[str, NDArray[np.float64]]: ...
+    def error_bounds(self, curve: Optional[int] = None) -> dict[str, NDArray[np.float64]]: ...
 
 class SplineSurface:
     def __init__(
@@ -201,6 +222,28 @@ class Mesh:
         point_data: Optional[dict[str, ArrayLike]] = None,
     ) -> None: ...
 
+class Polylines:
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int) -> NDArray[Any]: ...
+    def __iter__(self) -> Iterator[NDArray[Any]]: ...
+    @property
+    def points(self) -> NDArray[Any]: ...
+    @property
+    def first(self) -> NDArray[np.int64]: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def deviations(self) -> NDArray[np.float64]: ...
+
+def flatten(
+    points: ArrayLike,
+    tolerance: Union[float, ArrayLike],
+    weights: Optional[ArrayLike] = None,
+    *,
+    dtype: Optional[DTypeLike] = None,
+    threads: int = 0,
+    homogeneous: bool = False,
+) -> Polylines: ...
 def tessellate(
     points: Union[_Nets, SplineSurface, Sequence[SplineSurface]],
     tolerance: Union[None, float, ArrayLike] = None,

@@ -2,6 +2,7 @@
 #include "python/src/arrays.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "python/src/call_arguments.hpp"
 
@@ -315,6 +316,23 @@ py::array_t<std::uint32_t> indices(const py::object& values, std::size_t count,
     throw_index_error(argument, "a number is outside of the set");
   }
   return contiguous<std::uint32_t>(array, argument);
+}
+
+GivenTolerance::GivenTolerance(const py::object& tolerance) : is_one_(!has_dimensions(tolerance)) {
+  if (is_one_) {
+    all = positive(number_or_infinity(tolerance, "tolerance"), false, "tolerance");
+  } else {
+    all = std::numeric_limits<double>::infinity();
+    each = parameters<double>(tolerance, "tolerance");
+  }
+}
+
+void GivenTolerance::require_count(std::size_t elements, const char* several) const {
+  if (!is_one_ && static_cast<std::size_t>(each.size()) != elements) {
+    throw_value_error("tolerance", "expected a number, or one for each of " +
+                                       std::to_string(elements) + " " + several + ", found " +
+                                       std::to_string(each.size()));
+  }
 }
 
 } // namespace simdbezier::python

@@ -130,4 +130,17 @@ template <typename T>
   return contiguous<T>(any, argument);
 }
 
+/// A tolerance for all patches or curves, or one for each of them.
+struct GivenTolerance {
+  double all = 0;           ///< infinity for None, or where there is one each
+  py::array_t<double> each; ///< empty where one is for all
+
+  explicit GivenTolerance(const py::object& tolerance);
+  /// Refuses one for each of another number of elements, which `several` names.
+  void require_count(std::size_t elements, const char* several) const;
+
+private:
+  bool is_one_; ///< arrays may be empty as well
+};
+
 } // namespace simdbezier::python

@@ -53,6 +53,17 @@ std::size_t element_of(std::size_t size, const py::object& value, const std::str
   return static_cast<std::size_t>(number);
 }
 
+std::size_t sequence_index(std::size_t size, const py::object& value, const std::string& argument,
+                           const std::string& size_text) {
+  const py::ssize_t number = index_of(value, argument);
+  const auto end = static_cast<py::ssize_t>(size);
+  if (number < -end || number >= end) {
+    throw_index_error(argument, "there are " + size_text + ", found number " +
+                                    py::str(value).cast<std::string>());
+  }
+  return static_cast<std::size_t>(number < 0 ? number + end : number);
+}
+
 double number(const py::object& value, const char* argument) {
   const double found = PyFloat_AsDouble(value.ptr());
   if (found == -1.0 && PyErr_Occurred() != nullptr) {

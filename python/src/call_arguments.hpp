@@ -17,6 +17,10 @@ namespace simdbezier::python {
 [[nodiscard]] std::size_t element_of(std::size_t size, const py::object& value,
                                      const std::string& argument, const std::string& size_text);
 
+/// The same of a sequence, where -1 is the last element.
+[[nodiscard]] std::size_t sequence_index(std::size_t size, const py::object& value,
+                                         const std::string& argument, const std::string& size_text);
+
 [[nodiscard]] double number(const py::object& value, const char* argument);
 /// A finite number, or infinity for None.
 [[nodiscard]] double number_or_infinity(const py::object& value, const char* argument);

@@ -1,5 +1,4 @@
 // CurveSet: packed curves, evaluated into numpy's arrays.
-#include <simdbezier/bounds.hpp>
 #include <simdbezier/curves.hpp>
 
 #include "python/src/py_set.hpp"
@@ -56,17 +55,6 @@ public:
         set_);
   }
 
-  [[nodiscard]] py::dict error_bounds(const py::object& curve) const {
-    const std::size_t index = element_of(size(), curve, "curve", plural(size(), "curve", "curves"));
-    const CurveErrorBounds bounds =
-        std::visit([&](const auto& set) { return simdbezier::error_bounds(set, index); }, set_);
-    py::dict result;
-    result["position"] = bounds_of(bounds.position, components());
-    result["d1"] = bounds_of(bounds.d1, components());
-    result["d2"] = bounds_of(bounds.d2, components());
-    return result;
-  }
-
   [[nodiscard]] std::string text() const {
     return "<simdbezier.CurveSet: " + plural(size(), "curve", "curves") + " of degree " +
            std::to_string(degree()) + (rational() ? ", rational" : "") + ", " + type_text() + ">";
@@ -102,9 +90,10 @@ void add_curve_set(py::module_& module) {
          py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
          "Single samples in any order: a dict of arrays (samples, components). `curve` is one "
          "number for all of them, or one each.");
-  define(type, "error_bounds", &PyCurveSet::error_bounds, py::arg("curve"),
+  define(type, "error_bounds", &PyCurveSet::error_bounds, py::arg("curve") = py::none(),
          "Certified bounds on |computed - exact| of every component: a dict with position, d1 "
-         "and d2.");
+         "and d2, arrays (components,) of one curve, or (curves, components) of all if no curve "
+         "is named.");
 }
 
 } // namespace simdbezier::python

@@ -56,6 +56,7 @@ PYBIND11_MODULE(_core, module) {
   add_errors(module);
   add_patch_set(module);
   add_curve_set(module);
+  add_polylines(module);
   add_nets(module);
   add_mesh(module);
   add_spline_surface(module);

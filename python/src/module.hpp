@@ -17,6 +17,7 @@ namespace simdbezier::python {
 
 void add_patch_set(py::module_& module);
 void add_curve_set(py::module_& module);
+void add_polylines(py::module_& module);
 void add_nets(py::module_& module);
 void add_mesh(py::module_& module);
 void add_tessellate(py::module_& module);
@@ -48,10 +49,5 @@ struct EmptyUntilConstructed {
 /// Joins a count and its noun in the right number: "1 patch", "2 patches".
 [[nodiscard]] std::string plural(std::size_t count, const std::string& one,
                                  const std::string& several);
-
-/// A row of bounds as numpy has them.
-[[nodiscard]] inline py::array_t<double> bounds_of(const double* bounds, int components) {
-  return py::array_t<double>(components, bounds);
-}
 
 } // namespace simdbezier::python

@@ -1,9 +1,9 @@
 // PatchSet: packed patches, evaluated into numpy's arrays.
 #include <cmath>
 
-#include <simdbezier/bounds.hpp>
 #include <simdbezier/evaluate.hpp>
 
+#include "python/src/derivatives.hpp"
 #include "python/src/py_set.hpp"
 
 namespace simdbezier::python {
@@ -28,18 +28,21 @@ public:
                                        const py::object& threads) const {
     return std::visit(
         [&]<typename T>(const PatchSet<T>& set) {
-          const GridSide<T> columns(nu, "nu");
-          const GridSide<T> rows(nv, "nv");
-          const Grid<T> grid{columns.count, rows.count, columns.first(), rows.first()};
-          require_addressable(sample_count(set, grid), set.components(), "nu or nv");
-          NamedArrays inputs;
-          columns.add_to(inputs, "nu");
-          rows.add_to(inputs, "nv");
-          return evaluate_at(set, grid,
-                             {static_cast<py::ssize_t>(set.size()),
-                              static_cast<py::ssize_t>(rows.count),
-                              static_cast<py::ssize_t>(columns.count)},
-                             outputs, out, inputs, threads);
+          const GivenGrid<T> given(set, nu, nv);
+          return evaluate_at(set, given.grid(), given.shape(), outputs, out, given.inputs(),
+                             threads);
+        },
+        set_);
+  }
+  [[nodiscard]] py::dict evaluate_grid_derivatives(const py::object& nu, const py::object& nv,
+                                                   const py::object& derivatives,
+                                                   const py::object& out,
+                                                   const py::object& threads) const {
+    return std::visit(
+        [&]<typename T>(const PatchSet<T>& set) {
+          const GivenGrid<T> given(set, nu, nv);
+          return evaluate_derivatives_at(set, given.grid(), wanted_pairs(derivatives, out),
+                                         given.shape(), out, given.inputs(), threads);
         },
         set_);
   }
@@ -49,29 +52,23 @@ public:
                                   const py::object& threads) const {
     return std::visit(
         [&]<typename T>(const PatchSet<T>& set) {
-          const py::array_t<T> us = parameters<T>(u, "u");
-          const py::array_t<T> vs = parameters<T>(v, "v");
-          const auto count = static_cast<std::size_t>(us.size());
-          const py::array_t<std::uint32_t> patches = indices(patch, count, "patch");
-          require_length("v", vs.size(), us.size());
-          require_length("patch", patches.size(), us.size());
-          const Samples<T> samples{span_of(patches), span_of(us), span_of(vs)};
-          return evaluate_at(set, samples, {us.size()}, outputs, out,
-                             {{"patch", patches}, {"u", us}, {"v", vs}}, threads);
+          const GivenSamples<T> given(patch, u, v);
+          return evaluate_at(set, given.samples(), given.shape(), outputs, out, given.inputs(),
+                             threads);
         },
         set_);
   }
-
-  [[nodiscard]] py::dict error_bounds(const py::object& patch) const {
-    const PatchShape of = shape(patch);
-    const std::size_t index = index_of(patch);
-    const ErrorBounds bounds =
-        std::visit([&](const auto& set) { return simdbezier::error_bounds(set, index); }, set_);
-    py::dict result;
-    result["position"] = bounds_of(bounds.position, of.components);
-    result["du"] = bounds_of(bounds.du, of.components);
-    result["dv"] = bounds_of(bounds.dv, of.components);
-    return result;
+  [[nodiscard]] py::dict evaluate_derivatives(const py::object& patch, const py::object& u,
+                                              const py::object& v, const py::object& derivatives,
+                                              const py::object& out,
+                                              const py::object& threads) const {
+    return std::visit(
+        [&]<typename T>(const PatchSet<T>& set) {
+          const GivenSamples<T> given(patch, u, v);
+          return evaluate_derivatives_at(set, given.samples(), wanted_pairs(derivatives, out),
+                                         given.shape(), out, given.inputs(), threads);
+        },
+        set_);
   }
 
   [[nodiscard]] std::string text() const {
@@ -123,9 +120,51 @@ private:
     }
   };
 
-  [[nodiscard]] std::size_t index_of(const py::object& patch) const {
-    return element_of(size(), patch, "patch", plural(size(), "patch", "patches"));
-  }
+  /// A grid as a call is given it.
+  template <typename T>
+  struct GivenGrid {
+    GridSide<T> columns;
+    GridSide<T> rows;
+    std::size_t patches;
+
+    GivenGrid(const PatchSet<T>& set, const py::object& nu, const py::object& nv)
+        : columns(nu, "nu"), rows(nv, "nv"), patches(set.size()) {
+      require_addressable(sample_count(set, grid()), set.components(), "nu or nv");
+    }
+    [[nodiscard]] Grid<T> grid() const {
+      return {columns.count, rows.count, columns.first(), rows.first()};
+    }
+    [[nodiscard]] std::vector<py::ssize_t> shape() const {
+      return {static_cast<py::ssize_t>(patches), static_cast<py::ssize_t>(rows.count),
+              static_cast<py::ssize_t>(columns.count)};
+    }
+    [[nodiscard]] NamedArrays inputs() const {
+      NamedArrays all;
+      columns.add_to(all, "nu");
+      rows.add_to(all, "nv");
+      return all;
+    }
+  };
+
+  /// Single samples as a call is given them.
+  template <typename T>
+  struct GivenSamples {
+    py::array_t<T> us;
+    py::array_t<T> vs;
+    py::array_t<std::uint32_t> patches;
+
+    GivenSamples(const py::object& patch, const py::object& u, const py::object& v)
+        : us(parameters<T>(u, "u")), vs(parameters<T>(v, "v")),
+          patches(indices(patch, static_cast<std::size_t>(us.size()), "patch")) {
+      require_length("v", vs.size(), us.size());
+      require_length("patch", patches.size(), us.size());
+    }
+    [[nodiscard]] Samples<T> samples() const {
+      return {span_of(patches), span_of(us), span_of(vs)};
+    }
+    [[nodiscard]] std::vector<py::ssize_t> shape() const { return {us.size()}; }
+    [[nodiscard]] NamedArrays inputs() const { return {{"patch", patches}, {"u", us}, {"v", vs}}; }
+  };
 
   static void require_length(const std::string& argument, py::ssize_t found, py::ssize_t expected) {
     if (found != expected) {
@@ -174,9 +213,20 @@ void add_patch_set(py::module_& module) {
          py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
          "Single samples in any order: a dict of arrays (samples, components). `patch` is one "
          "number for all of them, or one each.");
-  define(type, "error_bounds", &PyPatchSet::error_bounds, py::arg("patch"),
+  define(type, "evaluate_derivatives", &PyPatchSet::evaluate_derivatives, py::arg("patch"),
+         py::arg("u"), py::arg("v"), py::arg("derivatives"), py::arg("out") = py::none(),
+         py::arg("threads") = 0,
+         "Partial derivatives of any order at single samples: a dict of arrays (samples, "
+         "components). `derivatives` are pairs of orders in u and v, such as (2, 1), which are "
+         "keys of the results, and of `out`.");
+  define(type, "evaluate_grid_derivatives", &PyPatchSet::evaluate_grid_derivatives, py::arg("nu"),
+         py::arg("nv"), py::arg("derivatives"), py::arg("out") = py::none(), py::arg("threads") = 0,
+         "The same for every patch on the grid that evaluate_grid() takes: arrays (patches, nv, "
+         "nu, components).");
+  define(type, "error_bounds", &PyPatchSet::error_bounds, py::arg("patch") = py::none(),
          "Certified bounds on |computed - exact| of every component: a dict with position, du "
-         "and dv.");
+         "and dv, arrays (components,) of one patch, or (patches, components) of all if no patch "
+         "is named.");
 }
 
 } // namespace simdbezier::python

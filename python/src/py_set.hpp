@@ -1,12 +1,15 @@
 // What the module's PatchSet and CurveSet share: packing, and evaluation into numpy's arrays.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include <simdbezier/bounds.hpp>
 #include <simdbezier/curves.hpp>
 #include <simdbezier/evaluate.hpp>
 #include <simdbezier/options.hpp>
@@ -29,11 +32,12 @@ template <typename S>
 
 // Kinds of sets, which say of theirs:
 //   Set<T>, Out<T>               the set and its outputs in the library
-//   kIndex                       the argument that names one of its elements
+//   kIndex, kSeveral             the argument that names one of its elements, and several of them
 //   kNeeds                       the components that not all outputs do without, in words
 //   names()                      the outputs
 //   has(name, components)        whether an output exists for points of so many components
 //   set_values(out, arrays)      adds the outputs of one number a sample
+//   kCertified, bounds(of)       the outputs that error_bounds() certifies, and their bounds
 
 struct Patches {
   template <typename T>
@@ -41,6 +45,7 @@ struct Patches {
   template <typename T>
   using Out = Outputs<T>;
   static constexpr const char* kIndex = "patch";
+  static constexpr const char* kSeveral = "patches";
   static constexpr const char* kNeeds = "three components";
 
   static const OutputNames& names() {
@@ -62,6 +67,10 @@ struct Patches {
       to.curvature[curvature] = arrays.values(output_name(curvature));
     }
   }
+  static constexpr std::array kCertified = {"position", "du", "dv"};
+  static std::array<const double*, 3> bounds(const ErrorBounds& of) {
+    return {of.position, of.du, of.dv};
+  }
 };
 
 struct Curves {
@@ -70,6 +79,7 @@ struct Curves {
   template <typename T>
   using Out = CurveOutputs<T>;
   static constexpr const char* kIndex = "curve";
+  static constexpr const char* kSeveral = "curves";
   static constexpr const char* kNeeds = "two or three components";
 
   static const OutputNames& names() {
@@ -82,6 +92,10 @@ struct Curves {
   template <typename T>
   static void set_values(CurveOutputs<T>& to, const OutputArrays<T>& arrays) {
     to.curvature = arrays.values("curvature");
+  }
+  static constexpr std::array kCertified = {"position", "d1", "d2"};
+  static std::array<const double*, 3> bounds(const CurveErrorBounds& of) {
+    return {of.position, of.d1, of.d2};
   }
 };
 
@@ -129,6 +143,37 @@ public:
     return set_.index() == 0 ? py::dtype::of<float>() : py::dtype::of<double>();
   }
 
+  /// Certified bounds of one element, or for None of all: a dict of arrays (components,), or
+  /// (elements, components).
+  [[nodiscard]] py::dict error_bounds(const py::object& element) const {
+    const bool all = element.is_none();
+    const std::size_t first = all ? 0 : index_of(element);
+    const std::size_t count = all ? size() : 1;
+    const auto width = static_cast<std::size_t>(components());
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(width)};
+    if (all) {
+      shape.insert(shape.begin(), static_cast<py::ssize_t>(count));
+    }
+    py::dict result;
+    std::array<double*, Kind::kCertified.size()> to{};
+    for (std::size_t k = 0; k < to.size(); ++k) {
+      py::array_t<double> array(shape);
+      to[k] = array.mutable_data();
+      result[Kind::kCertified[k]] = array;
+    }
+    const auto certify = [&](const auto& set) {
+      const py::gil_scoped_release release;
+      for (std::size_t index = first; index < first + count; ++index) {
+        const auto found = simdbezier::error_bounds(set, index);
+        for (std::size_t k = 0; k < to.size(); ++k) {
+          to[k] = std::copy_n(Kind::bounds(found)[k], width, to[k]);
+        }
+      }
+    };
+    std::visit(certify, set_);
+    return result;
+  }
+
 protected:
   explicit PySet(std::variant<Set<float>, Set<double>>&& set) : set_(std::move(set)) {}
   template <template <typename> class View>
@@ -141,6 +186,11 @@ protected:
           is_float ? pack_as<float>(views, options) : pack_as<double>(views, options);
         },
         points);
+  }
+
+  /// The number of an element that is part of the set.
+  [[nodiscard]] std::size_t index_of(const py::object& element) const {
+    return element_of(size(), element, Kind::kIndex, plural(size(), Kind::kIndex, Kind::kSeveral));
   }
 
   /// How many components points have, and of what type they are, for a text about the set.

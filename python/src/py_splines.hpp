@@ -8,6 +8,7 @@
 
 #include <simdbezier/splines.hpp>
 
+#include "python/src/derivatives.hpp"
 #include "python/src/module.hpp"
 
 namespace simdbezier::python {
@@ -169,15 +170,6 @@ template <typename T>
       derivative_divisor(order_u, order_v, places.length_u[k], places.length_v[k]));
 }
 
-/// Orders of partial derivatives, and the key of each in the results.
-struct WantedDerivative {
-  int u = 0;
-  int v = 0;
-  py::object key;
-};
-/// Pairs of orders, or for curves orders; None: none.
-[[nodiscard]] std::vector<WantedDerivative> wanted_derivatives(const py::object& derivatives,
-                                                               bool of_curve);
 /// Adds derivatives by the spline's own parameters to a dict. samples: the dimensions of arrays in
 /// front of the components.
 void add_derivatives(const AnyPatchSet& set, const FoundPlaces& places,

@@ -60,16 +60,6 @@ Interval range_of(const py::object& range, const std::string& argument) {
                         (tolerance > 0 ? ", together with those within knot_tolerance" : ""));
 }
 
-int order_of(const py::object& value, const std::string& argument) {
-  const std::size_t order = integer(value, 0, argument);
-  if (order > std::size_t{kMostDerivativeOrder}) {
-    throw_value_error(argument, "expected orders of at most " +
-                                    std::to_string(kMostDerivativeOrder) + ", found " +
-                                    std::to_string(order));
-  }
-  return static_cast<int>(order);
-}
-
 /// Whether it is the product of a point and its weight that overflows, rather than a patch made of
 /// sound ones. Of such a patch, reports have no point.
 template <typename S>
@@ -92,39 +82,6 @@ void divide(py::array_t<T>& array, int components, const FoundPlaces& places,
     for (int c = 0; c < components; ++c, ++value) {
       *value /= divisor;
     }
-  }
-}
-
-template <typename T>
-void add_derivatives_of(const PatchSet<T>& set, const FoundPlaces& places,
-                        const std::vector<WantedDerivative>& wanted, std::vector<py::ssize_t> shape,
-                        const Options& options, py::dict& result) {
-  const int components = set.components();
-  shape.push_back(components);
-  std::vector<py::array_t<T>> arrays;
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    arrays.emplace_back(shape);
-  }
-  const std::vector<T> x(places.centred_u.begin(), places.centred_u.end());
-  const std::vector<T> y(places.centred_v.begin(), places.centred_v.end());
-  const Samples<T> samples{places.patch, x, y, Parameters::centred};
-  Status status;
-  for (int first = 0; status && first < components; first += 3) {
-    const int count = std::min(3, components - first);
-    std::vector<PartialDerivative<T>> out;
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      T* const to = arrays[k].mutable_data() + first;
-      out.push_back({wanted[k].u,
-                     wanted[k].v,
-                     {to, count > 1 ? to + 1 : nullptr, count > 2 ? to + 2 : nullptr, components}});
-    }
-    const py::gil_scoped_release release;
-    status = evaluate_derivatives(set, samples, {out, first}, options);
-  }
-  require_ok(status, "derivatives");
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    divide(arrays[k], components, places, wanted[k]);
-    result[wanted[k].key] = arrays[k];
   }
 }
 
@@ -244,44 +201,23 @@ void require_parameters(const Report& report, const GivenSpline& spline,
   }
 }
 
-std::vector<WantedDerivative> wanted_derivatives(const py::object& derivatives, bool of_curve) {
-  std::vector<WantedDerivative> wanted;
-  if (derivatives.is_none()) {
-    return wanted;
-  }
-  const char* const expected = of_curve ? "expected orders, such as (1, 3)"
-                                        : "expected pairs of orders, such as [(1, 0), (2, 1)]";
-  if (!py::isinstance<py::iterable>(derivatives) || py::isinstance<py::str>(derivatives)) {
-    throw_type_error("derivatives", expected);
-  }
-  for (const py::handle one : derivatives) {
-    const auto object = py::reinterpret_borrow<py::object>(one);
-    if (of_curve) {
-      const int order = order_of(object, "derivatives");
-      wanted.push_back({order, 0, py::int_(order)});
-      continue;
-    }
-    if (!py::isinstance<py::sequence>(one) || py::isinstance<py::str>(one) || py::len(one) != 2) {
-      throw_value_error("derivatives", expected);
-    }
-    const int u = order_of(object[py::int_(0)], "derivatives");
-    const int v = order_of(object[py::int_(1)], "derivatives");
-    wanted.push_back({u, v, py::make_tuple(u, v)});
-  }
-  return wanted;
-}
-
 void add_derivatives(const AnyPatchSet& set, const FoundPlaces& places,
                      const std::vector<WantedDerivative>& wanted,
                      const std::vector<py::ssize_t>& samples, const py::object& threads,
                      py::dict& result) {
-  Options options;
-  options.threads = thread_count(threads);
-  if (!wanted.empty()) {
-    std::visit(
-        [&](const auto& of) { add_derivatives_of(of, places, wanted, samples, options, result); },
-        set);
-  }
+  const auto add = [&]<typename T>(const PatchSet<T>& of) {
+    const std::vector<T> x(places.centred_u.begin(), places.centred_u.end());
+    const std::vector<T> y(places.centred_v.begin(), places.centred_v.end());
+    const py::dict derivatives =
+        evaluate_derivatives_at(of, Samples<T>{places.patch, x, y, Parameters::centred}, wanted,
+                                samples, py::none(), {}, threads);
+    for (const WantedDerivative& one : wanted) {
+      auto array = derivatives[one.key].template cast<py::array_t<T>>();
+      divide(array, of.components(), places, one);
+      result[one.key] = array;
+    }
+  };
+  std::visit(add, set);
 }
 
 bool only_derivatives(const std::vector<WantedDerivative>& wanted, const py::object& outputs,

@@ -10,18 +10,6 @@
 namespace simdbezier::python {
 namespace {
 
-/// Reads one tolerance, or one a patch.
-void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
-                   MeshOptions& options) {
-  if (has_dimensions(tolerance)) { // one a patch
-    several = parameters<double>(tolerance, "tolerance");
-    options.rates.tolerances = span_of(several);
-  } else {
-    options.rates.tolerance =
-        positive(number_or_infinity(tolerance, "tolerance"), false, "tolerance");
-  }
-}
-
 /// Reads n or (nu, nv) samples.
 void set_grid(const py::object& grid, MeshOptions& options) {
   if (grid.is_none()) {
@@ -73,13 +61,6 @@ std::string blamed(Status status, const MeshOptions& options, const char* weight
   }
 }
 
-void require_tolerances(const MeshOptions& options, std::size_t patches) {
-  if (!options.rates.tolerances.empty() && options.rates.tolerances.size() != patches) {
-    throw_value_error("tolerance", "expected a number, or one for each of " +
-                                       std::to_string(patches) + " patches, found " +
-                                       std::to_string(options.rates.tolerances.size()));
-  }
-}
 void require_space(int components) {
   if (components != 3) {
     throw_value_error("points", "expected three components, found " + std::to_string(components) +
@@ -105,12 +86,13 @@ py::object made_mesh(const MeshOptions& options, const char* weights, Make make)
 }
 
 template <typename T, typename S>
-py::object tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& options) {
+py::object tessellated(const PointViews<S, ControlNets>& nets, const GivenTolerance& tolerance,
+                       const MeshOptions& options) {
   std::size_t patches = 0;
   for (const ControlNets<S>& view : nets.views) {
     patches += view.count;
   }
-  require_tolerances(options, patches);
+  tolerance.require_count(patches, "patches");
   require_space(nets.views.front().components);
   return made_mesh<T>(options, nets.weights_argument(), [&] {
     return simdbezier::tessellate<T>(std::span<const ControlNets<S>>(nets.views), options);
@@ -119,7 +101,8 @@ py::object tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions
 
 /// Splines, all of them in S.
 template <typename T, typename S>
-py::object tessellated(const std::vector<const GivenSpline*>& splines, const MeshOptions& options) {
+py::object tessellated(const std::vector<const GivenSpline*>& splines,
+                       const GivenTolerance& tolerance, const MeshOptions& options) {
   std::vector<py::array> arrays;
   std::vector<SplineSurface<S>> surfaces;
   std::size_t patches = 0;
@@ -130,7 +113,7 @@ py::object tessellated(const std::vector<const GivenSpline*>& splines, const Mes
     patches += span_count(surfaces.back()).patches();
     require_space(one->points.components);
   }
-  require_tolerances(options, patches);
+  tolerance.require_count(patches, "patches");
   Report report;
   const auto make = [&] {
     Mesh<T> mesh =
@@ -187,8 +170,9 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
     any = control_nets({points, weights, homogeneous});
   }
   MeshOptions options;
-  py::array_t<double> tolerances;
-  set_tolerance(tolerance, tolerances, options);
+  const GivenTolerance tolerances(tolerance);
+  options.rates.tolerance = tolerances.all;
+  options.rates.tolerances = span_of(tolerances.each);
   options.relative_tolerance =
       positive(number_or_infinity(relative, "relative"), false, "relative");
   set_grid(grid, options);
@@ -221,16 +205,17 @@ py::object tessellate_points(const py::object& points, const py::object& toleran
     const bool points_are_float = all([](auto* one) { return one->points_are_float(); });
     const bool is_float = wants_float(dtype, all([](auto* one) { return one->results_are_float; }));
     if (points_are_float) {
-      return is_float ? tessellated<float, float>(splines, options)
-                      : tessellated<double, float>(splines, options);
+      return is_float ? tessellated<float, float>(splines, tolerances, options)
+                      : tessellated<double, float>(splines, tolerances, options);
     }
-    return is_float ? tessellated<float, double>(splines, options)
-                    : tessellated<double, double>(splines, options);
+    return is_float ? tessellated<float, double>(splines, tolerances, options)
+                    : tessellated<double, double>(splines, tolerances, options);
   }
   const bool is_float = wants_float(dtype, any.index() == 0);
   return std::visit(
       [&](const auto& nets) {
-        return is_float ? tessellated<float>(nets, options) : tessellated<double>(nets, options);
+        return is_float ? tessellated<float>(nets, tolerances, options)
+                        : tessellated<double>(nets, tolerances, options);
       },
       any);
 }

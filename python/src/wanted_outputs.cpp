@@ -141,46 +141,12 @@ bool nests(const py::array& array) {
   return true;
 }
 
-} // namespace
-
-void require_addressable(std::size_t samples, int components, const std::string& argument) {
-  const std::size_t bytes = static_cast<std::size_t>(components) * sizeof(double);
-  if (samples > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / bytes) {
-    throw_value_error(argument, "the samples exceed what memory can address");
-  }
-}
-
-std::vector<std::string> wanted_outputs(const OutputNames& known, const py::object& outputs,
-                                        const py::object& out) {
-  Wanted wanted(known);
-  if (py::isinstance<py::str>(outputs)) {
-    wanted.add(outputs, "outputs");
-  } else if (py::isinstance<py::iterable>(outputs)) {
-    for (const py::handle name : outputs) {
-      wanted.add(name, "outputs");
-    }
-  } else if (!outputs.is_none()) {
-    throw_type_error("outputs", "expected names, found " + py::repr(outputs).cast<std::string>());
-  }
-  if (!out.is_none()) {
-    if (!py::isinstance<py::dict>(out)) {
-      throw_type_error("out", "expected a dict of arrays, found " +
-                                  py::str(py::type::of(out)).cast<std::string>());
-    }
-    for (const auto& item : py::reinterpret_borrow<py::dict>(out)) {
-      wanted.add(item.first, "out");
-    }
-  }
-  return wanted.names();
-}
-
-py::array output_array(const std::string& name, const py::object& out, const py::dtype& dtype,
-                       const std::vector<py::ssize_t>& shape) {
-  const py::str key(name);
+/// The caller's array, found to have the shape, or a new one.
+py::array output_array(const py::object& key, const std::string& argument, const py::object& out,
+                       const py::dtype& dtype, const std::vector<py::ssize_t>& shape) {
   if (out.is_none() || !py::reinterpret_borrow<py::dict>(out).contains(key)) {
     return py::array(dtype, shape);
   }
-  const std::string argument = "out['" + name + "']";
   const py::object given = out[key];
   if (!py::isinstance<py::array>(given)) {
     throw_type_error(argument, "expected a numpy array, found " +
@@ -210,6 +176,8 @@ py::array output_array(const std::string& name, const py::object& out, const py:
   return array;
 }
 
+/// How far apart samples lie, in elements, the array having `samples` dimensions of them. They have
+/// to be evenly spaced, and no two values of the array may share one place.
 std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
                              const std::string& argument) {
   if (array.size() > 0 && !nests(array)) {
@@ -234,10 +202,60 @@ std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
   return stride == 0 ? (vectors ? array.shape(last) : 1) : stride / array.itemsize();
 }
 
+/// How far apart the components of one sample lie, in elements.
+std::ptrdiff_t component_stride(const py::array& array) {
+  const py::ssize_t last = array.ndim() - 1;
+  return array.shape(last) > 1 ? array.strides(last) / array.itemsize() : 1;
+}
+
+} // namespace
+
+void require_addressable(std::size_t samples, int components, const std::string& argument) {
+  const std::size_t bytes = static_cast<std::size_t>(components) * sizeof(double);
+  if (samples > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / bytes) {
+    throw_value_error(argument, "the samples exceed what memory can address");
+  }
+}
+
+std::vector<std::string> wanted_outputs(const OutputNames& known, const py::object& outputs,
+                                        const py::object& out) {
+  Wanted wanted(known);
+  if (py::isinstance<py::str>(outputs)) {
+    wanted.add(outputs, "outputs");
+  } else if (py::isinstance<py::iterable>(outputs)) {
+    for (const py::handle name : outputs) {
+      wanted.add(name, "outputs");
+    }
+  } else if (!outputs.is_none()) {
+    throw_type_error("outputs", "expected names, found " + py::repr(outputs).cast<std::string>());
+  }
+  for (const auto& item : output_dict(out)) {
+    wanted.add(item.first, "out");
+  }
+  return wanted.names();
+}
+
+py::dict output_dict(const py::object& out) {
+  if (out.is_none()) {
+    return {};
+  }
+  if (!py::isinstance<py::dict>(out)) {
+    throw_type_error("out", "expected a dict of arrays, found " +
+                                py::str(py::type::of(out)).cast<std::string>());
+  }
+  return py::reinterpret_borrow<py::dict>(out);
+}
+
+OutputArray::OutputArray(py::object key, const py::object& out, const py::dtype& dtype,
+                         const std::vector<py::ssize_t>& shape, std::size_t samples)
+    : key_(std::move(key)), argument_("out[" + py::repr(key_).cast<std::string>() + "]"),
+      array_(output_array(key_, argument_, out, dtype, shape)), first_(array_.mutable_data()),
+      stride_(sample_stride(array_, samples, argument_)),
+      component_stride_(component_stride(array_)) {}
+
 void refuse_overlaps(const NamedArrays& outputs, std::size_t samples, const NamedArrays& inputs) {
   std::vector<std::vector<Column>> columns;
-  for (const auto& [name, array] : outputs) {
-    const std::string argument = "out['" + name + "']";
+  for (const auto& [argument, array] : outputs) {
     const std::vector<Column> mine = columns_of(array, samples);
     for (const auto& [input_name, input] : inputs) {
       const auto meet = [](const Column& a, const Column& b) { return a.meets(b); };
@@ -248,7 +266,7 @@ void refuse_overlaps(const NamedArrays& outputs, std::size_t samples, const Name
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const auto collide = [](const Column& a, const Column& b) { return a.collides(b); };
       if (any_pair(mine, columns[k], collide)) {
-        throw_value_error(argument, "overlaps out['" + outputs[k].first + "']");
+        throw_value_error(argument, "overlaps " + outputs[k].first);
       }
     }
     columns.push_back(mine);

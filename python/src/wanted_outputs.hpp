@@ -43,14 +43,8 @@ void require_addressable(std::size_t samples, int components, const std::string&
 [[nodiscard]] std::vector<std::string>
 wanted_outputs(const OutputNames& known, const py::object& outputs, const py::object& out);
 
-/// The caller's array, found to have the shape, or a new one.
-[[nodiscard]] py::array output_array(const std::string& name, const py::object& out,
-                                     const py::dtype& dtype, const std::vector<py::ssize_t>& shape);
-
-/// How far apart samples lie, in elements, the array having `samples` dimensions of them. They have
-/// to be evenly spaced, and no two values of the array may share one place.
-[[nodiscard]] std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
-                                           const std::string& argument);
+/// The dict of arrays that `out` is; an empty one for None.
+[[nodiscard]] py::dict output_dict(const py::object& out);
 
 /// Arrays, and the names of the arguments that they are.
 using NamedArrays = std::vector<std::pair<std::string, py::array>>;
@@ -61,6 +55,44 @@ using NamedArrays = std::vector<std::pair<std::string, py::array>>;
 /// in front of the components.
 void refuse_overlaps(const NamedArrays& outputs, std::size_t samples, const NamedArrays& inputs);
 
+/// One output of a call: the caller's array, found to be usable, or a new one. The samples of
+/// usable ones are evenly spaced, and no two of their values share one place.
+class OutputArray {
+public:
+  /// key: what `out` (None, or a dict) and the results call it. shape: `samples` dimensions, and
+  /// behind them the components where it has vectors.
+  OutputArray(py::object key, const py::object& out, const py::dtype& dtype,
+              const std::vector<py::ssize_t>& shape, std::size_t samples);
+
+  [[nodiscard]] const py::object& key() const { return key_; }
+  /// "out['position']"
+  [[nodiscard]] const std::string& argument() const { return argument_; }
+  [[nodiscard]] const py::array& array() const { return array_; }
+  /// How far apart samples lie, in elements.
+  [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
+
+  /// Where the first value is, in an array of V.
+  template <typename V>
+  [[nodiscard]] V* first() const {
+    return static_cast<V*>(first_);
+  }
+  /// `count` components from `first_component` on.
+  template <typename T>
+  [[nodiscard]] Vectors<T> vectors(int first_component, int count) const {
+    T* const x = first<T>() + first_component * component_stride_;
+    return {x, count > 1 ? x + component_stride_ : nullptr,
+            count > 2 ? x + 2 * component_stride_ : nullptr, stride_};
+  }
+
+private:
+  py::object key_;
+  std::string argument_;
+  py::array array_;
+  void* first_;
+  std::ptrdiff_t stride_;
+  std::ptrdiff_t component_stride_;
+};
+
 template <typename T>
 class OutputArrays {
 public:
@@ -68,41 +100,36 @@ public:
   OutputArrays(const OutputNames& known, const std::vector<std::string>& wanted,
                const py::object& out, const std::vector<py::ssize_t>& samples, int components,
                const NamedArrays& inputs) {
+    NamedArrays arrays;
     for (const std::string& name : wanted) {
       std::vector<py::ssize_t> shape = samples;
       if (known.is_vector(name)) {
         shape.push_back(components);
       }
       const py::dtype dtype = name == "status" ? py::dtype::of<std::uint8_t>() : py::dtype::of<T>();
-      py::array array = output_array(name, out, dtype, shape);
-      const std::ptrdiff_t stride = sample_stride(array, samples.size(), argument(name));
-      if (!known.is_vector(name) && stride != 1 && array.size() > 1) {
-        throw_value_error(argument(name), "its values have to lie side by side");
+      OutputArray output(py::str(name), out, dtype, shape, samples.size());
+      if (!known.is_vector(name) && output.stride() != 1 && output.array().size() > 1) {
+        throw_value_error(output.argument(), "its values have to lie side by side");
       }
-      entries_.push_back({name, array, array.mutable_data(), stride, component_stride(array)});
-      arrays_.emplace_back(name, std::move(array));
+      arrays.emplace_back(output.argument(), output.array());
+      entries_.push_back({name, std::move(output)});
     }
-    refuse_overlaps(arrays_, samples.size(), inputs);
+    refuse_overlaps(arrays, samples.size(), inputs);
   }
 
   /// `count` components of a vector output from `first` on; nothing where it is not wanted.
   [[nodiscard]] Vectors<T> vectors(const std::string& name, int first, int count) const {
-    const Entry* const entry = find(name);
-    if (entry == nullptr) {
-      return {};
-    }
-    T* const x = static_cast<T*>(entry->first) + first * entry->components;
-    return {x, count > 1 ? x + entry->components : nullptr,
-            count > 2 ? x + 2 * entry->components : nullptr, entry->stride};
+    const OutputArray* const output = find(name);
+    return output == nullptr ? Vectors<T>() : output->vectors<T>(first, count);
   }
   [[nodiscard]] Values<T> values(const std::string& name) const {
-    const Entry* const entry = find(name);
-    return entry == nullptr ? Values<T>() : Values<T>(static_cast<T*>(entry->first));
+    const OutputArray* const output = find(name);
+    return output == nullptr ? Values<T>() : Values<T>(output->first<T>());
   }
   [[nodiscard]] Values<SampleStatus> status() const {
-    const Entry* const entry = find("status");
-    return entry == nullptr ? Values<SampleStatus>()
-                            : Values<SampleStatus>(static_cast<SampleStatus*>(entry->first));
+    const OutputArray* const output = find("status");
+    return output == nullptr ? Values<SampleStatus>()
+                             : Values<SampleStatus>(output->first<SampleStatus>());
   }
   [[nodiscard]] bool any_vector(const OutputNames& known) const {
     return std::any_of(entries_.begin(), entries_.end(),
@@ -110,37 +137,25 @@ public:
   }
   [[nodiscard]] py::dict result() const {
     py::dict all;
-    for (const auto& [name, array] : arrays_) {
-      all[py::str(name)] = array;
+    for (const Entry& entry : entries_) {
+      all[entry.output.key()] = entry.output.array();
     }
     return all;
-  }
-
-  [[nodiscard]] static std::string argument(const std::string& name) {
-    return "out['" + name + "']";
   }
 
 private:
   struct Entry {
     std::string name;
-    py::array array;
-    void* first;
-    std::ptrdiff_t stride;
-    std::ptrdiff_t components;
+    OutputArray output;
   };
 
-  static std::ptrdiff_t component_stride(const py::array& array) {
-    const py::ssize_t last = array.ndim() - 1;
-    return array.shape(last) > 1 ? array.strides(last) / array.itemsize() : 1;
-  }
-  [[nodiscard]] const Entry* find(const std::string& name) const {
+  [[nodiscard]] const OutputArray* find(const std::string& name) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(),
                                     [&](const Entry& entry) { return entry.name == name; });
-    return found == entries_.end() ? nullptr : &*found;
+    return found == entries_.end() ? nullptr : &found->output;
   }
 
   std::vector<Entry> entries_;
-  NamedArrays arrays_;
 };
 
 /// Calls evaluate(to) for three components after three others, until a call is refused. `to` is of

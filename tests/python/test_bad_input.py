@@ -8,6 +8,7 @@ import simdbezier
 POINTS = np.random.default_rng(1).random((2, 4, 4, 3)).astype(np.float32)
 PATCHES = simdbezier.PatchSet(POINTS)
 CURVES = simdbezier.CurveSet(POINTS[:, 0])
+POLYGONS = POINTS[:, 0]
 DOUBLES = simdbezier.CurveSet(POINTS[:, 0], dtype=np.float64)
 SIX = simdbezier.PatchSet(np.tile(POINTS, 2))
 SHAPE = (2, 3, 5, 3)
@@ -28,6 +29,14 @@ def read_only():
 
 def grid(**out):
     return PATCHES.evaluate_grid(5, 3, outputs=(), out=out)
+
+
+def derivatives(patch=0, u=(0.5,), v=(0.5,), orders=((1, 0),), **rest):
+    return PATCHES.evaluate_derivatives(patch, u, v, orders, **rest)
+
+
+def grid_derivatives(nu=5, nv=3, orders=((1, 0),), **rest):
+    return PATCHES.evaluate_grid_derivatives(nu, nv, orders, **rest)
 
 
 def misaligned(shape, dtype=np.float32):
@@ -126,6 +135,94 @@ CASES = [
     (IndexError, 'patch', lambda: PATCHES.is_rational(2**70)),
     (IndexError, 'curve', lambda: CURVES.error_bounds(2)),
     (IndexError, 'curve', lambda: CURVES.error_bounds(-1)),
+    (TypeError, 'patch', lambda: PATCHES.error_bounds('all')),
+    (TypeError, 'patch', lambda: PATCHES.error_bounds([0, 1])),
+    (TypeError, 'patch', lambda: PATCHES.error_bounds(False)),
+    (TypeError, 'curve', lambda: CURVES.error_bounds(0.0)),
+    # Derivatives of any order.
+    (ValueError, 'v: expected 2 values', lambda: derivatives([0, 1], [0.5, 0.5], [0.5])),
+    (ValueError, 'patch: expected 2 values', lambda: derivatives([0, 1, 1], [0.5, 0.5], [0.5, 0.5])),
+    (IndexError, 'patch', lambda: derivatives([0, 2], [0.5, 0.5], [0.5, 0.5])),
+    (IndexError, 'patch', lambda: derivatives(-1)),
+    (TypeError, 'patch', lambda: derivatives(0.5)),
+    (TypeError, 'u', lambda: derivatives(0, ['a'])),
+    (ValueError, 'u', lambda: derivatives(0, [[0.5]])),
+    (TypeError, 'v', lambda: derivatives(0, [0.5], [0.5j])),
+    (TypeError, 'derivatives: expected pairs', lambda: derivatives(orders=3)),
+    (TypeError, 'derivatives: expected pairs', lambda: derivatives(orders='du')),
+    (ValueError, 'derivatives: expected pairs', lambda: derivatives(orders=(2, 1))),
+    (ValueError, 'derivatives: expected pairs', lambda: derivatives(orders=['du'])),
+    (ValueError, 'derivatives: expected pairs', lambda: derivatives(orders=[(1, 2, 3)])),
+    (TypeError, 'derivatives: expected an integer', lambda: derivatives(orders=[(1, 0.5)])),
+    (TypeError, 'derivatives: expected an integer', lambda: derivatives(orders=[(True, 0)])),
+    (TypeError, 'derivatives: expected an integer', lambda: derivatives(orders=[('d', 'u')])),
+    (ValueError, 'derivatives: expected 0 or more, found -1', lambda: derivatives(orders=[(0, -1)])),
+    (ValueError, 'derivatives: expected orders of at most 15, found 16',
+     lambda: derivatives(orders=[(16, 0)])),
+    (ValueError, 'derivatives: expected orders of at most 15', lambda: derivatives(orders=[(0, 2**70)])),
+    (ValueError, 'derivatives: expected at least one', lambda: derivatives(orders=())),
+    (ValueError, 'derivatives: expected at least one', lambda: derivatives(orders=None)),
+    (ValueError, 'derivatives: expected at least one', lambda: derivatives(orders=(), out={})),
+    (TypeError, 'threads', lambda: derivatives(threads='x')),
+    (TypeError, 'out: expected a dict', lambda: derivatives(out=fresh((1, 3)))),
+    (ValueError, "out: expected pairs of orders as keys, such as (2, 1), found 'du'",
+     lambda: derivatives(out={'du': fresh((1, 3))})),
+    (ValueError, 'out: expected pairs', lambda: derivatives(out={(1, 2, 3): fresh((1, 3))})),
+    (ValueError, 'out: expected pairs', lambda: derivatives(out={range(2): fresh((1, 3))})),
+    (ValueError, 'out: expected orders of at most', lambda: derivatives(out={(1, 99): fresh((1, 3))})),
+    (TypeError, 'out: expected an integer', lambda: derivatives(out={(1.0, 1): fresh((1, 3))})),
+    (TypeError, 'out[(2, 1)]: expected a numpy', lambda: derivatives(out={(2, 1): [[1, 2, 3]]})),
+    (TypeError, 'out[(2, 1)]: expected float32',
+     lambda: derivatives(out={(2, 1): fresh((1, 3), np.float64)})),
+    (ValueError, 'out[(2, 1)]: expected shape', lambda: derivatives(out={(2, 1): fresh((1, 2))})),
+    (ValueError, 'out[(2, 1)]: is read-only',
+     lambda: derivatives(out={(2, 1): np.broadcast_to(np.float32(0), (1, 3))})),
+    (ValueError, 'out[(2, 1)]: is not aligned', lambda: derivatives(out={(2, 1): misaligned((1, 3))})),
+    (ValueError, 'out[(2, 1)]: its strides',
+     lambda: derivatives(0, *np.ones((2, 9), 'f4'), out={(2, 1): strided((9, 3), (0, 4))})),
+    (ValueError, 'out[(2, 1)]: its samples have to be evenly spaced',
+     lambda: grid_derivatives(out={(2, 1): fresh((2, 3, 9, 3))[:, :, :5]})),
+    (ValueError, 'out[(2, 1)]: expected shape', lambda: grid_derivatives(out={(2, 1): fresh((2, 5, 3, 3))})),
+    (ValueError, 'nu', lambda: grid_derivatives(1)),
+    (TypeError, 'nv', lambda: grid_derivatives(5, 2.5)),
+    (ValueError, 'nv: expected finite', lambda: grid_derivatives(5, [np.inf])),
+    (ValueError, 'nu or nv', lambda: grid_derivatives(2**62, 2**62)),
+    (ValueError, 'derivatives: expected at least one', lambda: grid_derivatives(orders=[])),
+    # Polylines.
+    (ValueError, 'points', lambda: simdbezier.flatten(POINTS, 0.1)),
+    (ValueError, 'points', lambda: simdbezier.flatten(POLYGONS[:, :1], 0.1)),
+    (ValueError, 'points', lambda: simdbezier.flatten(with_nan()[:, 2], 0.1)),
+    (TypeError, 'points', lambda: simdbezier.flatten(POLYGONS.astype(complex), 0.1)),
+    (TypeError, 'points', lambda: simdbezier.flatten(CURVES, 0.1)),
+    (TypeError, 'points: expected control points, found a SplineCurve',
+     lambda: simdbezier.flatten(simdbezier.SplineCurve(POLYGONS[0]), 0.1)),
+    (ValueError, 'weights', lambda: simdbezier.flatten(POLYGONS, 0.1, [1, 2])),
+    (ValueError, 'weights', lambda: simdbezier.flatten(POLYGONS, 0.1, -POLYGONS[..., 0] - 1)),
+    (ValueError, 'weights: expected none beside',
+     lambda: simdbezier.flatten(POLYGONS, 0.1, POLYGONS[..., 0], homogeneous=True)),
+    (ValueError, 'points: a weight is not positive',
+     lambda: simdbezier.flatten(-FOUR[0], 0.1, homogeneous=True)),
+    (TypeError, 'homogeneous', lambda: simdbezier.flatten(POLYGONS, 0.1, homogeneous='w')),
+    (TypeError, 'tolerance: expected a number, or one for each', lambda: simdbezier.flatten(POLYGONS, None)),
+    (TypeError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, 'fine')),
+    (TypeError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, ['a', 'b'])),
+    (ValueError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, 0)),
+    (ValueError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, -0.1)),
+    (ValueError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, np.nan)),
+    (ValueError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, np.inf)),
+    (ValueError, 'tolerance: expected a number, or one for each of 2 curves, found 3',
+     lambda: simdbezier.flatten(POLYGONS, [0.1] * 3)),
+    (ValueError, 'tolerance: expected a number, or one for each of 2 curves, found 0',
+     lambda: simdbezier.flatten(POLYGONS, [])),
+    (ValueError, 'tolerance', lambda: simdbezier.flatten(POLYGONS, [[0.1, 0.1]])),
+    (ValueError, 'tolerance: a tolerance is not above zero, or smaller than rounding allows (curve 1)',
+     lambda: simdbezier.flatten(POLYGONS, [0.1, 0])),
+    (ValueError, 'tolerance: a tolerance is not above zero, or smaller than rounding allows (curve 1)',
+     lambda: simdbezier.flatten(POLYGONS, [0.1, np.nan])),
+    (ValueError, 'tolerance: a tolerance is not above zero, or smaller than rounding allows (curve 0)',
+     lambda: simdbezier.flatten(POLYGONS, 1e-9)),
+    (TypeError, 'dtype', lambda: simdbezier.flatten(POLYGONS, 0.1, dtype=np.int32)),
+    (TypeError, 'threads', lambda: simdbezier.flatten(POLYGONS, 0.1, threads=1.5)),
     # Which outputs.
     (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ('position', 'colour'))),
     (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ())),
@@ -180,6 +277,8 @@ CASES = [
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=0)),
     (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance='fine')),
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=[1e-3] * 3)),
+    (ValueError, 'tolerance: expected a number, or one for each of 2 patches, found 0',
+     lambda: simdbezier.tessellate(POINTS, tolerance=[])),
     (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, relative=-1)),
     (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, 0.1, relative=np.nan)),
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, -1.0, relative=0.1)),
@@ -289,6 +388,13 @@ MISUSES = [
      'PatchSet.evaluate_grid(): called with another object as self'),
     (lambda: CURVES.evaluate(0, 1, 'position', None, 0, 7),
      'CurveSet.evaluate(): expected at most 5 arguments without a name, found 6'),
+    (lambda: PATCHES.evaluate_derivatives(0, [0.5], [0.5]),
+     "PatchSet.evaluate_derivatives(): 'derivatives' is missing, expected patch, u, v, derivatives, "),
+    (lambda: PATCHES.evaluate_grid_derivatives(5, 5, orders=[(1, 0)]),
+     "PatchSet.evaluate_grid_derivatives(): no argument is called 'orders', expected nu, nv, derivatives, "),
+    (lambda: PATCHES.error_bounds(0, 1),
+     'PatchSet.error_bounds(): expected at most 1 arguments without a name, found 2'),
+    (lambda: simdbezier.flatten(POLYGONS), "flatten(): 'tolerance' is missing, expected points, tolerance, "),
     (lambda: simdbezier.split_u(POINTS, v=0.5),
      "split_u(): no argument is called 'v', expected points, u, weights, homogeneous"),
     (lambda: simdbezier.tessellate(POINTS, grid=3).save(), "Mesh.save(): 'path' is missing, expected path, point_data"),
@@ -309,7 +415,7 @@ def test_every_function_tells_an_unknown_argument():
         for name in dir(owner):
             function = getattr(owner, name)
             if name.startswith('_') or not callable(function) or name in (
-                    'Mesh', 'PatchIndexError', 'available_isas'):
+                    'Mesh', 'PatchIndexError', 'Polylines', 'available_isas'):
                 continue
             with pytest.raises(TypeError, match=rf"{name}\(\): no argument is called 'colour', "):
                 function(colour=POINTS)

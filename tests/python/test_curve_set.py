@@ -2,6 +2,7 @@
 import numpy as np
 import pytest
 
+import exact
 import reference
 import simdbezier
 
@@ -56,3 +57,37 @@ def test_names_come_from_a_generator():
     curves = simdbezier.CurveSet(np.ones((2, 4, 3), np.float32))
     got = curves.evaluate_grid(5, (name for name in ('position', 'd1')))
     assert list(got) == ['position', 'd1']
+
+
+@pytest.mark.parametrize('rational', [False, True])
+@pytest.mark.parametrize('dtype, count, components', SHAPES)
+def test_bounds_of_all_curves_are_those_of_each(dtype, count, components, rational):
+    random = np.random.default_rng(2)
+    points = random.random((6, count, components)).astype(dtype)
+    weights = (0.5 + random.random((6, count))).astype(dtype) if rational else None
+    curves = simdbezier.CurveSet(points, weights)
+    got = curves.error_bounds()
+    assert list(got) == ['position', 'd1', 'd2']
+    at = curves.evaluate([5, 0, 3], [0.6875, 0.25, 1], tuple(got))
+    for order, (name, rows) in enumerate(got.items()):
+        assert rows.shape == (6, components) and rows.dtype == np.float64
+        assert np.array_equal(rows, [curves.error_bounds(k)[name] for k in range(6)])
+        for k, (curve, t) in enumerate(((5, 0.6875), (0, 0.25), (3, 1))):
+            of = exact.curve_derivatives(points[curve], None if weights is None else weights[curve], t, 2)
+            for c, expected in enumerate(of[order]):
+                apart = abs(exact.Fraction(float(at[name][k, c])) - expected)
+                assert apart <= rows[curve, c], (name, k, c)
+
+
+def test_bounds_belong_to_their_outputs():
+    # Second derivatives vanish, but for what packing may lose.
+    curves = simdbezier.CurveSet(np.arange(4.0)[None, :, None])
+    for bounds in (curves.error_bounds(), curves.error_bounds(0)):
+        assert [bounds[name].max() > 1e-20 for name in ('position', 'd1', 'd2')] == [True, True, False]
+
+
+def test_bounds_of_no_curves():
+    empty = simdbezier.CurveSet(np.zeros((0, 4, 2))).error_bounds()
+    assert all(rows.shape == (0, 2) and rows.dtype == np.float64 for rows in empty.values())
+    raw = simdbezier.CurveSet.__new__(simdbezier.CurveSet)
+    assert raw.error_bounds()['d2'].shape == (0, 3)

@@ -46,3 +46,32 @@ def test_outputs_that_meet_in_later_components_are_refused_before_anything_is_wr
     with pytest.raises(ValueError, match=r"out\['du'\]: overlaps out\['position'\]$"):
         patches.evaluate(0, parameters, parameters, (), {'position': position, 'du': du})
     assert (memory == 7).all()
+
+
+@pytest.mark.parametrize('components, places, named', SHARED)
+def test_derivatives_in_inputs_are_refused_before_anything_is_written(components, places, named):
+    patches = simdbezier.PatchSet(np.random.default_rng(2).random((1, 4, 4, components), 'f4'))
+    memory, out, (u, v) = planes_with_inputs(components + 2, places)
+    before = memory.copy()
+    with pytest.raises(ValueError, match=rf"out\[\(2, 1\)\]: overlaps {named}$"):
+        patches.evaluate_derivatives(0, u, v, (), {(2, 1): out[:, :components]})
+    assert np.array_equal(memory, before)
+
+
+def test_derivatives_on_a_grid_in_its_parameters_are_refused():
+    patches = simdbezier.PatchSet(np.ones((1, 4, 4, 3), 'f4'))
+    memory = np.full((1, 2, 5, 3), 0.5, np.float32)
+    with pytest.raises(ValueError, match=r"out\[\(1, 0\)\]: overlaps nu$"):
+        patches.evaluate_grid_derivatives(memory.ravel()[:5], 2, (), {(1, 0): memory})
+    with pytest.raises(ValueError, match=r"out\[\(1, 0\)\]: overlaps nv$"):
+        patches.evaluate_grid_derivatives(5, memory.ravel()[:2], (), {(1, 0): memory})
+    assert (memory == 0.5).all()
+
+
+def test_derivatives_that_meet_are_refused_before_anything_is_written():
+    patches = simdbezier.PatchSet(np.random.default_rng(2).random((1, 4, 4, 3), 'f4'))
+    memory = np.full((9, 8), 7, np.float32)
+    with pytest.raises(ValueError, match=r"out\[\(0, 1\)\]: overlaps out\[\(1, 0\)\]$"):
+        patches.evaluate_derivatives(0, *np.ones((2, 9), 'f4'), (),
+                                     {(1, 0): memory[:, :3], (0, 1): memory[:, 2:5]})
+    assert (memory == 7).all()

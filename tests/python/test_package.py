@@ -22,7 +22,7 @@ def test_stubs_have_every_name():
         if isinstance(node, ast.ClassDef) and name != 'PatchIndexError':
             methods = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
             public = {item for item in vars(getattr(simdbezier, name))
-                      if not item.startswith('_')} | {'__init__', '__len__'} & methods
+                      if not item.startswith('_')} | {'__init__', '__len__', '__getitem__', '__iter__'} & methods
             assert methods == public, name
     assert (FOLDER / 'py.typed').exists()
 

@@ -2,6 +2,7 @@
 import numpy as np
 import pytest
 
+import exact
 import reference
 import simdbezier
 
@@ -100,6 +101,60 @@ def test_positions_keep_their_bound(net):
     for k in range(len(patches)):
         worst = np.abs(got[k].reshape(-1, points.shape[3]) - expected[k]).max(axis=0)
         assert (worst <= patches.error_bounds(k)['position'] + slack).all()
+
+
+def test_bounds_of_all_patches_are_those_of_each(net):
+    points, weights = net
+    patches = simdbezier.PatchSet(points, weights)
+    got = patches.error_bounds()
+    assert list(got) == ['position', 'du', 'dv']
+    for name, rows in got.items():
+        assert rows.shape == (5, points.shape[3]) and rows.dtype == np.float64
+        assert rows.flags.c_contiguous and rows.flags.writeable
+        for k, row in enumerate(rows):
+            assert np.array_equal(row, patches.error_bounds(k)[name]), (name, k)
+            assert np.array_equal(row, patches.error_bounds(patch=np.uint8(k))[name])
+    assert all(np.array_equal(rows, patches.error_bounds(None)[name]) for name, rows in got.items())
+
+
+def test_bounds_of_all_patches_hold_in_fractions(net):
+    points, weights = net
+    patches = simdbezier.PatchSet(points, weights)
+    bounds = patches.error_bounds()
+    patch, u, v = np.array([4, 0, 2]), np.array([0.25, 0.6875, 1]), np.array([0.8125, 0.5, 0.125])
+    got = patches.evaluate(patch, u, v, tuple(bounds))
+    for k, p in enumerate(patch):
+        of = exact.derivatives(points[p], None if weights is None else weights[p], u[k], v[k], 1, 1)
+        for name, orders in (('position', (0, 0)), ('du', (1, 0)), ('dv', (0, 1))):
+            for c, expected in enumerate(of[orders]):
+                apart = abs(exact.Fraction(float(got[name][k, c])) - expected)
+                assert apart <= bounds[name][p, c] < 1e-3, (k, name, c)
+
+
+def test_bounds_belong_to_their_outputs():
+    points = np.zeros((2, 3, 4, 3))
+    points[0, ..., 0] = [0, 1, 5, 2]  # the first patch changes with u alone, the second with v
+    points[1, ..., 1] = np.array([[0], [3], [1]])
+    patches = simdbezier.PatchSet(points)
+    # Where nothing changes, bounds are what packing may lose.
+    got = {name: (rows > 1e-20).tolist() for name, rows in patches.error_bounds().items()}
+    assert got['position'] == [[True, False, False], [False, True, False]]
+    assert got['du'] == [[True, False, False], [False] * 3]
+    assert got['dv'] == [[False] * 3, [False, True, False]]
+    assert patches.error_bounds(0)['du'][0] > 1e-20 > patches.error_bounds(0)['dv'].max()
+
+
+def test_bounds_of_all_patches_of_several_degrees():
+    random = np.random.default_rng(1)
+    patches = simdbezier.PatchSet([random.random((2, 4, 4, 2)), random.random((3, 3, 6, 2))])
+    got = patches.error_bounds()
+    for name, rows in got.items():
+        singles = [patches.error_bounds(k)[name] for k in range(5)]
+        assert np.array_equal(rows, singles) and len(set(rows[:, 0])) == 5
+    empty = simdbezier.PatchSet(np.zeros((0, 4, 4, 3), np.float32)).error_bounds()
+    assert all(rows.shape == (0, 3) and rows.dtype == np.float64 for rows in empty.values())
+    raw = simdbezier.PatchSet.__new__(simdbezier.PatchSet)
+    assert raw.error_bounds()['dv'].shape == (0, 3)
 
 
 def test_single_samples_are_those_of_the_definition(net):
