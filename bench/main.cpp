@@ -122,6 +122,9 @@ int main(int argc, char** argv) {
   }
   bool faulty = false;
   const auto plugins = start_plugins(take_option(arguments, "--evaluator"), faulty);
+  if (faulty && plugins.empty()) { // the library's rows alone take an hour that nobody asked for
+    return 1;
+  }
   if (!forbid_strategies(take_option(arguments, "--without"))) {
     return 2;
   }

@@ -30,6 +30,12 @@ expect("second_derivatives/f32/duv_off/4x4[^\n]*ERROR[^\n]*wrong duv: patch 0 sa
 expect_none("second_derivatives/f32/shader_horner" "f64/shader_horner" "position_normal[^\n]*/layout:aos[^\n]*none"
             "second_derivatives/f32/none_in_planes/4x4/cache/threads:1/layout:aos")
 
+# Without any of the evaluators that were asked for, no row is of interest.
+run(1 --benchmark_min_time=0.001 --benchmark_filter=^grid/position/f32/.*/8x8/cache/threads:1
+    --evaluator ${FOLDER}/missing.so --evaluator ${FOLDER}/no_symbol.so)
+expect("missing.so: expected a shared object" "no_symbol.so: expected sbe_evaluate_f32")
+expect_none("items_per_second")
+
 run(1 --benchmark_filter=^nothing$)
 expect("simdbezier_bench: --benchmark_filter: no row matches")
 run(0 --help)

@@ -165,8 +165,13 @@ void understand_conversion(const Words& words, Arguments& arguments) {
   arguments.out = *words.value("-o");
   arguments.sort = words.has("--sort");
   const auto to = words.value("--to");
-  arguments.written =
-      written_patch_format(to ? "--to" : "-o", to.value_or(extension_of(arguments.out)));
+  const auto format = written_patch_format(to.value_or(extension_of(arguments.out)));
+  if (!format) {
+    const OptionEntry& entry = *find_option(to ? "--to" : "-o", command_name(words.command));
+    bad_usage(entry.name + ": expected " + entry.expected + ", found " +
+              in_quotes(to.value_or(arguments.out)));
+  }
+  arguments.written = *format;
 }
 
 } // namespace
@@ -224,6 +229,12 @@ PatchFile read_input(const Arguments& arguments) {
                    .c_str(),
                stderr);
   }
+  if (file.merged_splines > 0) {
+    std::fputs(("simdbezier: --knot-tolerance made different knots of " +
+                quantity(file.merged_splines, "spline", "splines") + " one\n")
+                   .c_str(),
+               stderr);
+  }
   return file;
 }
 
@@ -232,7 +243,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv, bool
   if (!words) {
     return std::nullopt;
   }
-  words->of_ranks = of_ranks;
+  words->of_ranks = of_ranks && words->command == Command::tessellate; // others run in one process
   Arguments arguments;
   arguments.command = words->command;
   arguments.in = words->value("IN").value_or("");

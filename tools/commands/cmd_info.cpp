@@ -36,6 +36,7 @@ struct Summary {
   std::size_t patches = 0;
   std::size_t rational = 0;
   std::size_t ignored_trims = 0;
+  std::size_t merged_splines = 0;
   std::vector<SplineRecord> splines;
   MeshBox box;
   std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
@@ -48,6 +49,7 @@ Summary summarise(PatchFile file, Isa chosen) {
   summary.name = file.name;
   summary.patches = file.count;
   summary.ignored_trims = file.ignored_trims;
+  summary.merged_splines = file.merged_splines;
   summary.splines = std::move(file.splines);
   summary.chosen = chosen;
   for (const PatchRun& run : file.runs) {
@@ -137,6 +139,9 @@ std::string as_text(const Summary& summary) {
   if (summary.ignored_trims > 0) {
     text += "ignored trims      " + std::to_string(summary.ignored_trims) + "\n";
   }
+  if (summary.merged_splines > 0) {
+    text += "merged knots       of " + quantity(summary.merged_splines, "spline", "splines") + "\n";
+  }
   text += "control point box  " + describe(summary.box.low) + " to " + describe(summary.box.high) +
           "\n";
   text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
@@ -163,6 +168,9 @@ std::string as_json(const Summary& summary) {
   json["rational"] = summary.rational;
   if (summary.ignored_trims > 0) {
     json["ignored_trims"] = summary.ignored_trims;
+  }
+  if (summary.merged_splines > 0) {
+    json["merged_splines"] = summary.merged_splines;
   }
   json["shapes"] = nlohmann::ordered_json::array();
   for (const auto& [shape, count] : summary.shapes) {

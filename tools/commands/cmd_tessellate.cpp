@@ -1,6 +1,7 @@
 // simdbezier tessellate: patches in, triangles out.
 #include <tools/commands/commands.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -109,12 +110,23 @@ void tessellate(const Arguments& arguments, ModelPart part, const std::optional<
   write_mesh(mesh, arguments, header, stats);
 }
 
+// Tells of a part that is there what its file says.
+template <typename T>
+void print_kept(const MeshContents& mesh, const Arguments& arguments, MeshStats& stats) {
+  stats.was_there = true;
+  stats.vertices = mesh.vertices;
+  stats.triangles = 2 * mesh.faces - (mesh.corners == 3 ? mesh.faces : mesh.among_quads);
+  stats.deviation = mesh.deviation ? stated_deviation<T>(arguments.mesh.format, mesh) : HUGE_VAL;
+  print(stats, arguments.mesh.stats);
+}
+
 // Makes one part of the mesh, unless it is there already.
 template <typename T>
 void tessellate_shard(Arguments& arguments, const PatchSource& source, MeshStats& stats) {
   const Shard& shard = *arguments.shard;
   expect_shards(source, shard.all, "--shard");
   expect_exact_storage<T>(source, arguments, "--shard");
+  const SetRange own = shard_range(source.patches(), shard.number, shard.all);
   PartHeader header;
   header.fingerprint = part_fingerprint(source, arguments);
   header.shard = shard.number;
@@ -126,12 +138,13 @@ void tessellate_shard(Arguments& arguments, const PatchSource& source, MeshStats
   if (done && done->fingerprint == header.fingerprint && done->format == header.format &&
       done->shard == header.shard && done->shards == header.shards) {
     std::fputs(("simdbezier: " + arguments.out + " is there already\n").c_str(), stderr);
-    return;
+    stats.patches = own.count;
+    return print_kept<T>(done->contents, arguments, stats);
   }
   ModelPart part;
   {
     const Stopwatch watch(stats.seconds.read);
-    part = find_part<T>(source, arguments, shard_range(source.patches(), shard.number, shard.all));
+    part = find_part<T>(source, arguments, own);
   }
   tessellate<T>(arguments, std::move(part), header, stats);
 }
@@ -161,6 +174,7 @@ void run_tessellate(const Arguments& asked) {
     const Stopwatch watch(stats.seconds.read);
     patches = read_input(arguments);
     stats.ignored_trims = patches.ignored_trims;
+    stats.merged_splines = patches.merged_splines;
     move_to_origin(patches, arguments.mesh, stats);
   }
   if (arguments.mesh.bezier_cells) {

@@ -35,7 +35,7 @@ struct OptionEntry {
 struct Words {
   Command command = Command::info;
   std::map<std::string, std::string, std::less<>> values; ///< by the options' names
-  bool of_ranks = false;                                  ///< typed behind simdbezier-mpi
+  bool of_ranks = false; ///< for many processes, see parse_arguments()
 
   [[nodiscard]] std::optional<std::string> value(std::string_view name) const;
   [[nodiscard]] bool has(std::string_view name) const { return values.contains(name); }

@@ -69,7 +69,8 @@ MeshContents GridMesh<T>::contents() const {
   // exact ones lie inside, so that this brings no position farther from its exact one.
   constexpr double kMargin = 0x1p-16;
   contents.margin = kMargin * largest_coordinate(box_);
-  for (std::size_t c = 0; c < 3; ++c) {
+  // The box of a point stays one, whose size is not that of its errors.
+  for (std::size_t c = 0; c < 3 && box_.low != box_.high; ++c) {
     contents.box->low[c] -= kMargin * std::abs(box_.low[c]);
     contents.box->high[c] += kMargin * std::abs(box_.high[c]);
   }

@@ -17,23 +17,6 @@ namespace {
 
 using namespace simdbezier::tools;
 
-void run(const Arguments& arguments) {
-  switch (arguments.command) {
-  case Command::tessellate:
-    return run_tessellate(arguments);
-  case Command::evaluate:
-    return run_evaluate(arguments);
-  case Command::info:
-    return run_info(arguments);
-  case Command::convert:
-    return run_convert(arguments);
-  case Command::plan:
-    return run_plan(arguments);
-  case Command::join:
-    return run_join(arguments);
-  }
-}
-
 // The parsers that we use allocate where they must not throw, for instance in destructors. Where
 // memory runs out there, the program comes here. exit() removes the temporary file.
 [[noreturn]] void end_without_memory() {
@@ -68,7 +51,7 @@ int main(int argc, char** argv) {
   std::set_terminate(end_without_memory);
   try {
     if (const auto arguments = parse_arguments(argc, argv)) {
-      run(*arguments);
+      run_command(*arguments);
     }
     return 0;
   } catch (const Failure& failure) {

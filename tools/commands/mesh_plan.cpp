@@ -43,15 +43,10 @@ std::string distance_option(const MeshArguments& mesh, const PlannedModel& model
 
 void set_resolution(const Arguments& arguments, const PlannedModel& model, MeshOptions& options) {
   const MeshArguments& mesh = arguments.mesh;
-  const GridSize& grid = arguments.grid;
   if (!mesh.adaptive()) {
-    if (std::max(grid.nu, grid.nv) > kMostSegments + 1) {
-      bad_usage("--grid: expected at most " + std::to_string(kMostSegments + 1) +
-                " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
-                std::to_string(grid.nv));
-    }
-    options.nu = static_cast<std::uint32_t>(grid.nu);
-    options.nv = static_cast<std::uint32_t>(grid.nv);
+    expect_grid_of_mesh(arguments);
+    options.nu = static_cast<std::uint32_t>(arguments.grid.nu);
+    options.nv = static_cast<std::uint32_t>(arguments.grid.nv);
     return;
   }
   options.rates.tolerance =
@@ -66,6 +61,15 @@ void set_resolution(const Arguments& arguments, const PlannedModel& model, MeshO
 }
 
 } // namespace
+
+void expect_grid_of_mesh(const Arguments& arguments) {
+  const GridSize& grid = arguments.grid;
+  if (arguments.mesh.weld && std::max(grid.nu, grid.nv) > kMostSegments + 1) {
+    bad_usage("--grid: expected at most " + std::to_string(kMostSegments + 1) +
+              " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
+              std::to_string(grid.nv));
+  }
+}
 
 MeshOptions mesh_options(const Arguments& arguments, const PlannedModel& model) {
   const MeshArguments& mesh = arguments.mesh;

@@ -19,6 +19,9 @@ struct PlannedModel {
   std::span<const std::uint32_t> numbers; ///< of the patches in the file; empty: 0, 1, 2, …
 };
 
+/// Throws Failure where a mesh without gaps cannot have such a grid.
+void expect_grid_of_mesh(const Arguments& arguments);
+
 /// Returns the options that the command line asks for. Throws Failure that names an option whose
 /// wish no mesh can meet.
 [[nodiscard]] MeshOptions mesh_options(const Arguments& arguments, const PlannedModel& model);

@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include <nlohmann/json.hpp>
 
 #include <tools/mesh_files/mesh_formats.hpp>
+#include <tools/process/counts.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -18,6 +20,15 @@ std::string rounded(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.6g", value);
   return digits.data();
+}
+
+// Writes the least number of six digits that is not below the value, for bounds.
+std::string rounded_up(double value) {
+  double above = value;
+  while (std::strtod(rounded(above).c_str(), nullptr) < value) {
+    above = std::nextafter(above * (1 + 0x1p-23), HUGE_VAL); // less than a fifth of a last digit
+  }
+  return rounded(above);
 }
 
 std::string of_stages(const StageSeconds& seconds) {
@@ -48,14 +59,20 @@ std::string stats_as_text(const MeshStats& stats) {
   if (stats.ignored_trims > 0) {
     text += "ignored trims      " + std::to_string(stats.ignored_trims) + "\n";
   }
+  if (stats.merged_splines > 0) {
+    text += "merged knots       of " + quantity(stats.merged_splines, "spline", "splines") + "\n";
+  }
   text += "vertices           " + std::to_string(stats.vertices) + "\n";
   text += "triangles          " + std::to_string(stats.triangles) + "\n";
   text += "deviation          ";
-  text += std::isfinite(stats.deviation) ? rounded(stats.deviation) + " at most, certified"
+  text += std::isfinite(stats.deviation) ? rounded_up(stats.deviation) + " at most, certified"
                                          : "not bounded";
   text += stats.diagonal > 0 && std::isfinite(stats.deviation)
-              ? "; " + rounded(stats.deviation / stats.diagonal) + " of the diagonal\n"
+              ? "; " + rounded_up(stats.deviation / stats.diagonal) + " of the diagonal\n"
               : "\n";
+  if (stats.was_there) {
+    return text;
+  }
   text += "diagonal           " + rounded(stats.diagonal) + "\n";
   text += stats.origin ? "origin             " + spaced(*stats.origin) + "\n" : "";
   text += "edges of patches   " + std::to_string(stats.open_edges) + " open, " +
@@ -83,9 +100,15 @@ std::string stats_as_json(const MeshStats& stats) {
   if (stats.ignored_trims > 0) {
     json["ignored_trims"] = stats.ignored_trims;
   }
+  if (stats.merged_splines > 0) {
+    json["merged_splines"] = stats.merged_splines;
+  }
   json["vertices"] = stats.vertices;
   json["triangles"] = stats.triangles;
   json["deviation"] = stats.deviation;
+  if (stats.was_there) {
+    return json.dump(2) + "\n";
+  }
   json["diagonal"] = stats.diagonal;
   if (stats.origin) {
     json["origin"] = *stats.origin;

@@ -24,11 +24,13 @@ struct StageSeconds {
 
 struct MeshStats {
   std::size_t patches = 0;
-  std::size_t ignored_trims = 0; ///< surfaces that were read as a whole, of which a part counts
+  std::size_t ignored_trims = 0;  ///< surfaces that were read as a whole, of which a part counts
+  std::size_t merged_splines = 0; ///< those of which --knot-tolerance made different knots one
   std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;                 ///< quads count as two
-  double deviation = 0;                        ///< certified, as the file states it
-  double diagonal = 0;                         ///< the diagonal of the box of all control points
+  std::uint64_t triangles = 0; ///< quads count as two
+  double deviation = 0;        ///< certified, as the file states it
+  bool was_there = false;      ///< of a part that was made before: nothing that follows is known
+  double diagonal = 0;         ///< the diagonal of the box of all control points
   std::optional<std::array<double, 3>> origin; ///< where positions count from, if that is not 0
   std::size_t open_edges = 0;                  ///< edges of patches that no other patch has
   std::size_t non_manifold_edges = 0;

@@ -43,6 +43,7 @@ std::unique_ptr<PatchSource> open_moved_source(Arguments& arguments, MeshStats& 
   const Stopwatch watch(stats.seconds.read);
   std::unique_ptr<PatchSource> source = open_source(arguments);
   stats.ignored_trims = source->ignored_trims();
+  stats.merged_splines = source->merged_splines();
   if (arguments.mesh.own_origin || arguments.mesh.origin) {
     PatchFile patches = source->take();
     move_to_origin(patches, arguments.mesh, stats);

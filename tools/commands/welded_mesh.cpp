@@ -168,6 +168,10 @@ MeshContents WeldedMesh<T>::contents() const {
   const auto own_errors = std::span(plan_.errors).subspan(own_.first, own_.count);
   const double margin = std::min(std::ranges::max(own_errors), largest);
   contents.box = box_;
+  if (box_.low == box_.high) { // the box of a point stays one, whose size is not that of its errors
+    contents.margin = margin;
+    return contents;
+  }
   for (std::size_t c = 0; c < 3; ++c) {
     contents.box->low[c] = std::max(box_.low[c] - margin, -most);
     contents.box->high[c] = std::min(box_.high[c] + margin, most);
@@ -225,18 +229,19 @@ void WeldedMesh<T>::evaluate(SetRange block, std::size_t stride, StageSeconds& s
       plan_.layout.first_vertex(block.first + block.count) - plan_.layout.first_vertex(block.first);
   values_.resize(vertices * stride);
   MeshOutputs<T> out;
+  places_.ask(vertices, out);
+  if (vertices == 0) { // then there may be no memory that values could be in
+    return;
+  }
   out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
   if (arguments_.mesh.normals) {
     out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
   }
-  places_.ask(vertices, out);
   const Options options{.threads = arguments_.threads};
-  if (vertices > 0) {
-    const Stopwatch watch(seconds.evaluate);
-    check(evaluate_mesh(plan_.set, plan_.layout, out, options, block));
-    places_.find_curvatures(plan_.set, plan_.topology, options);
-    places_.find_in_file(plan_.pieces, numbers_);
-  }
+  const Stopwatch watch(seconds.evaluate);
+  check(evaluate_mesh(plan_.set, plan_.layout, out, options, block));
+  places_.find_curvatures(plan_.set, plan_.topology, options);
+  places_.find_in_file(plan_.pieces, numbers_);
 }
 
 template <typename T>

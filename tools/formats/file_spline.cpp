@@ -67,6 +67,18 @@ void require_knots(const std::string& file, const FileSpline& spline,
   check(report.status);
 }
 
+/// Makes those knots one that the library makes one; see SplineSurface::knot_tolerance. Returns
+/// whether there are any.
+bool merge_knots(std::vector<double>& knots, double tolerance) {
+  const std::vector<double> in_file = knots;
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    const bool same = in_file[k] - knots[k - 1] <= tolerance;
+    knots[k] = same ? knots[k - 1] : in_file[k];
+  }
+  std::replace(knots.begin(), knots.end(), knots.back(), in_file.back());
+  return knots != in_file;
+}
+
 SplineSurface<double> view_of(const FileSpline& spline, double knot_tolerance) {
   SplineSurface<double> surface;
   const std::ptrdiff_t channels = spline.weights == Weights::none ? 3 : 4;
@@ -92,7 +104,8 @@ SplineSurface<double> view_of(const FileSpline& spline, double knot_tolerance) {
 } // namespace
 
 void PatchFile::close_spline(const FileSpline& spline) {
-  const SplineSurface<double> surface = view_of(spline, spline.merges_knots ? knot_tolerance : 0);
+  const double tolerance = spline.merges_knots ? knot_tolerance : 0;
+  const SplineSurface<double> surface = view_of(spline, tolerance);
   require_knots(name, spline, surface);
   const SpanCounts spans = span_count(surface);
   const bool rational = spline.weights != Weights::none;
@@ -128,6 +141,9 @@ void PatchFile::close_spline(const FileSpline& spline) {
     }
   }
   splines.push_back({spline.line, spline.u, spline.v, rational, count, spans});
+  SplineRecord& record = splines.back();
+  const bool merges_u = merge_knots(record.u.knots, tolerance);
+  merged_splines += merge_knots(record.v.knots, tolerance) || merges_u ? 1 : 0;
   // The patches follow each other like those of a mesh of one column.
   PatchRun run{spline.u.degree, spline.v.degree, nets.weights};
   run.stride = stride;

@@ -27,7 +27,7 @@ struct FileSpline {
   bool merges_knots = true; ///< false for ends of pieces that stand apart, each as often as it must
 };
 
-/// What is left of it when its patches have been added.
+/// What is left of it when its patches have been added. Knots that count as equal are equal.
 struct SplineRecord {
   std::size_t line = 0;
   SplineDirection u;

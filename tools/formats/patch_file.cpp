@@ -312,6 +312,7 @@ PatchFile PatchFile::of(std::span<const std::uint32_t> patches) const {
   PatchFile some;
   some.name = name;
   some.moved_error = moved_error;
+  some.has_origin = has_origin;
   some.cut_error = cut_error;
   for (const std::uint32_t patch : patches) {
     const PatchRun& run = run_of(patch);

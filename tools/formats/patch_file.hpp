@@ -86,9 +86,11 @@ struct PatchFile {
   std::vector<std::shared_ptr<const std::byte[]>> memory; ///< of values as files store them
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
   double moved_error = 0;              ///< how far points may be from where they were moved to
+  bool has_origin = false;             ///< whether they count from --origin
   double knot_tolerance = 0;           ///< that of close_spline()
   double cut_error = 0; ///< how far those of splines may be from their surfaces besides
   std::vector<SplineRecord> splines; ///< those whose patches are among these
+  std::size_t merged_splines = 0;    ///< those of which knot_tolerance made different knots one
   std::size_t ignored_trims = 0; ///< surfaces that are here as a whole, and of which a part counts
 
   /// Makes room for what an input of so many bytes usually has. Memory that turns out not to be

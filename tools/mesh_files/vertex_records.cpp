@@ -112,7 +112,7 @@ RecordPacker<T>::RecordPacker(std::string path, const MeshContents& contents,
 
 template <typename T>
 std::span<const std::byte> RecordPacker<T>::pack(const VertexBlock<T>& block) {
-  if (records_are_values_) {
+  if (records_are_values_ || block.values.empty()) {
     return std::as_bytes(block.values);
   }
   records_.assign(block.values.size() / contents_.stride() * layout_.size, std::byte{0});

@@ -8,7 +8,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include <tools/commands/arguments.hpp>
+#include <tools/commands/commands.hpp>
 #include <tools/commands/report.hpp>
 #include <tools/mpi/mpi_evaluate.hpp>
 #include <tools/mpi/mpi_tessellate.hpp>
@@ -18,7 +18,8 @@ namespace {
 
 using namespace simdbezier::tools;
 
-// All ranks get the same words, so one of them answers.
+// All ranks get the same words, so one of them answers. Commands that ranks cannot share are run by
+// the first one.
 int run(int argc, char** argv) {
   Ranks ranks(MPI_COMM_WORLD);
   if (!ranks.is_first()) {
@@ -29,10 +30,6 @@ int run(int argc, char** argv) {
     std::optional<Arguments> arguments;
     ranks.together([&] {
       arguments = parse_arguments(argc, argv, true);
-      if (arguments && arguments->command != Command::tessellate &&
-          arguments->command != Command::evaluate) {
-        bad_usage("expected tessellate or evaluate, found another command, which simdbezier has");
-      }
       if (arguments && arguments->shard) {
         bad_usage("--shard: expected with simdbezier, found with simdbezier-mpi");
       }
@@ -40,9 +37,12 @@ int run(int argc, char** argv) {
         expect_local_options(*arguments);
       }
     });
-    if (arguments) {
-      arguments->command == Command::evaluate ? run_mpi_evaluate(ranks, *arguments)
-                                              : run_mpi_tessellate(ranks, *arguments);
+    if (arguments && arguments->command == Command::tessellate) {
+      run_mpi_tessellate(ranks, *arguments);
+    } else if (arguments && arguments->command == Command::evaluate) {
+      run_mpi_evaluate(ranks, *arguments);
+    } else if (arguments) {
+      ranks.together([&] { ranks.is_first() ? run_command(*arguments) : void(); });
     }
     return 0;
   } catch (const Failure& failure) {

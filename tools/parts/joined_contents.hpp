@@ -26,6 +26,7 @@ public:
     contents_.vertices += part.vertices;
     contents_.faces += part.faces;
     contents_.among_quads += part.among_quads;
+    contents_.margin = std::max(contents_.margin, part.margin);
     if (contents_.deviation) {
       contents_.deviation = std::max(*contents_.deviation, part.deviation.value_or(0));
     }

@@ -33,6 +33,7 @@ public:
   /// Differs where the patches differ.
   [[nodiscard]] std::uint64_t fingerprint() const noexcept { return fingerprint_; }
   [[nodiscard]] std::size_t ignored_trims() const noexcept { return whole_.ignored_trims; }
+  [[nodiscard]] std::size_t merged_splines() const noexcept { return whole_.merged_splines; }
 
   [[nodiscard]] PatchFile read(std::size_t first, std::size_t count) const;
   /// Reads patches of these numbers, ascending.

@@ -65,6 +65,7 @@ void move_patches(PatchFile& file, const std::array<double, 3>& origin) {
     move(behind, (file.points.size() - behind) / named->stride, *named);
   }
   file.moved_error += rounded;
+  file.has_origin = true;
 }
 
 } // namespace simdbezier::tools

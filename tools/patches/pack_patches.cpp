@@ -17,6 +17,10 @@ template <typename T>
   };
   switch (report.status.code()) {
   case Status::non_finite_input:
+    if (file.has_origin) {
+      bad_input("--origin: expected an origin whose distance from all points " + type +
+                " can hold, found " + found() + " from " + file.place(patch, point));
+    }
     bad_input(file.place(patch, point) + ": expected coordinates within the range of " + type +
               ", found " + found());
   case Status::bad_weight:

@@ -132,12 +132,9 @@ std::string written_patch_formats(const std::string& prefix) {
   return alternatives(names);
 }
 
-PatchFormat written_patch_format(const std::string& option, const std::string& name) {
+std::optional<PatchFormat> written_patch_format(const std::string& name) {
   const auto* const format = std::ranges::find(kFormats, name, &Format::name);
-  if (format == std::end(kFormats)) {
-    bad_usage(option + ": expected " + written_patch_formats("") + ", found " + in_quotes(name));
-  }
-  return format->format;
+  return format == std::end(kFormats) ? std::nullopt : std::optional(format->format);
 }
 
 void write_patches(const PatchFile& file, std::span<const std::uint32_t> order,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,8 +12,8 @@ namespace simdbezier::tools {
 
 /// Returns "bez, bpt, … or sbp", every name behind `prefix`: the formats that can be written.
 [[nodiscard]] std::string written_patch_formats(const std::string& prefix);
-/// Returns the format that the name of an output asks for. Throws Failure (bad usage) for others.
-[[nodiscard]] PatchFormat written_patch_format(const std::string& option, const std::string& name);
+/// Returns the format of that name, if it can be written.
+[[nodiscard]] std::optional<PatchFormat> written_patch_format(const std::string& name);
 
 /// Writes all patches in this order, with all digits of their numbers. Throws Failure where the
 /// format cannot hold a patch as it is.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <utility>
 
 #include <tools/process/failure.hpp>
@@ -61,7 +60,8 @@ void OutputFile::bytes(const void* data, std::size_t size) {
   if (size > kBufferSize) {
     return target_->append(static_cast<const char*>(data), size);
   }
-  std::memcpy(buffer_.data() + used_, data, size);
+  // Of no bytes, data may be null, which memcpy() may not be given.
+  std::copy_n(static_cast<const char*>(data), size, buffer_.data() + used_);
   used_ += size;
 }
 

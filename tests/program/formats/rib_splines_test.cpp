@@ -137,6 +137,32 @@ TEST(RibSplines, KnotsWithinAToleranceAreOne) {
   EXPECT_EQ(patches({}), 3);
   EXPECT_EQ(patches({"--knot-tolerance", "1e-7"}), 3);
   EXPECT_EQ(patches({"--knot-tolerance", "1e-5"}), 2);
+  // What is merged is said, and knots that are one are counted once.
+  const std::string said = "simdbezier: --knot-tolerance made different knots of 1 spline one\n";
+  const Outcome merged = run({"info", in, "--knot-tolerance", "1e-5"});
+  EXPECT_EQ(merged.err, said);
+  EXPECT_NE(
+      merged.out.find("2 x 1 patches, 3 x 2 different knots\nmerged knots       of 1 spline\n"),
+      std::string::npos)
+      << merged.out;
+  const Outcome apart = run({"info", in, "--knot-tolerance", "1e-7"});
+  EXPECT_EQ(apart.err, "");
+  EXPECT_NE(apart.out.find("3 x 1 patches, 4 x 2 different knots\ncontrol"), std::string::npos)
+      << apart.out;
+  const std::vector<std::string> tolerance = {"--knot-tolerance", "1e-5"};
+  const auto json =
+      nlohmann::json::parse(run({"info", in, "--json", tolerance[0], tolerance[1]}).out);
+  EXPECT_EQ(json["merged_splines"], 1);
+  EXPECT_EQ(json["splines"][0]["u"]["knots"], (std::vector<double>{0, 0, 0, 1, 1, 2, 2, 2}));
+  const std::string out = folder.path("out.ply");
+  for (const std::vector<std::string>& shard : {std::vector<std::string>{}, {"--shard", "1/2"}}) {
+    std::vector<std::string> arguments = {"tessellate",   in,   tolerance[0], tolerance[1],
+                                          "--stats=json", "-o", out};
+    arguments.insert(arguments.end(), shard.begin(), shard.end());
+    const Outcome mesh = run(arguments);
+    EXPECT_EQ(mesh.err, said);
+    EXPECT_EQ(nlohmann::json::parse(mesh.out)["merged_splines"], 1);
+  }
   const Outcome wide = run({"info", in, "--knot-tolerance", "1.5"});
   EXPECT_EQ(wide.exit_code, 1);
   EXPECT_NE(wide.err.find(":1: expected"), std::string::npos) << wide.err;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <simdbezier/simdbezier.hpp>
 
+#include <cstdlib>
 #include <ostream>
 
 #include "tests/program/formats/sample_nets.hpp"
@@ -180,6 +181,31 @@ TEST(MeshStatistics, AreReadableToo) {
           "\nrepeated patches   0\n", "\nseconds            read "}) {
       EXPECT_NE(outcome.err.find(part), std::string::npos) << part << "\n" << outcome.err;
     }
+  }
+}
+
+// Six digits of a bound are a bound, and not more than one of their last digit larger.
+TEST(MeshStatistics, PrintBoundsThatAreRoundedUp) {
+  const TemporaryFolder folder;
+  for (const char* const grid : {"3", "4", "5", "6", "7", "8", "9", "10"}) {
+    const auto printed = [&](const char* form) {
+      const Outcome outcome =
+          run({"tessellate", "builtin:teapot", form, "--grid", grid, "-o", folder.path("out.ply")});
+      return outcome.out + outcome.err;
+    };
+    const Json stats = Json::parse(printed("--stats=json"), nullptr, false);
+    const std::string text = printed("--stats");
+    const std::size_t at = text.find("\ndeviation ");
+    ASSERT_NE(at, std::string::npos) << text;
+    char* end = nullptr;
+    const double bound = std::strtod(text.c_str() + at + 11, &end);
+    const double share = std::strtod(text.c_str() + text.find("; ", at) + 2, nullptr);
+    const double deviation = stats["deviation"];
+    const double exact_share = deviation / stats["diagonal"].get<double>();
+    EXPECT_GE(bound, deviation);
+    EXPECT_LE(bound, deviation * (1 + 1e-5));
+    EXPECT_GE(share, exact_share);
+    EXPECT_LE(share, exact_share * (1 + 1e-5));
   }
 }
 

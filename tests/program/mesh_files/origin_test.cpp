@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -223,6 +224,37 @@ TEST(TinyModel, IsWholeOrRefused) {
   EXPECT_EQ(folder.names(), Words{"in.bpt"});
 }
 
+// A point has no size that storing could lose, wherever it is.
+TEST(TinyModel, MayBeOnePoint) {
+  const TemporaryFolder folder;
+  for (const std::string point : {"0.1 2 -3\n", "1e6 0.1 0\n", "0 0 0\n", "1e-100 0 1e-60\n"}) {
+    const std::string in = folder.write("in.bpt", "1\n1 1\n" + point + point + point + point);
+    for (const std::string extension : {"obj", "ply", "stl", "glb", "vtu", "raw"}) {
+      for (const char* const precision : {"f32", "f64"}) {
+        for (const Words& more : {Words{}, {"--no-weld"}, {"--quantise", "16"}}) {
+          if (extension != "glb" && !more.empty() && more[0] == "--quantise") {
+            continue;
+          }
+          Words options = {"--grid", "3", "--precision", precision};
+          options.insert(options.end(), more.begin(), more.end());
+          SCOPED_TRACE(point + extension + " " + precision + (more.empty() ? "" : " " + more[0]));
+          const ReadMesh mesh = read_mesh(extension, tessellated(in, extension, options));
+          ASSERT_FALSE(mesh.positions.empty());
+          std::istringstream text(point);
+          for (std::size_t c = 0; c < 3; ++c) {
+            double expected = 0;
+            text >> expected;
+            const double value =
+                mesh.quantised ? mesh.positions[0][c] / 65535 : mesh.positions[0][c];
+            EXPECT_NEAR(mesh.translation[c] + mesh.scale * value, expected,
+                        1e-6 * std::abs(expected) + 1e-45);
+          }
+        }
+      }
+    }
+  }
+}
+
 // The middle in few digits, so that coordinates lose none.
 TEST(OwnOrigin, KeepsDigitsOfPoints) {
   const TemporaryFolder folder;
@@ -252,6 +284,21 @@ TEST(OwnOrigin, ThatIsTooFarIsRefused) {
   expect_failure(run({"tessellate", in, "-o", folder.path("out.obj"), "--origin", "-1.7e308,0,0"}),
                  1,
                  "--origin: expected an origin whose distance from all points a double can hold");
+  EXPECT_EQ(folder.names(), Words{"in.bpt"});
+}
+
+// The file's own points fit floats; the origin is at fault, whichever command moves them.
+TEST(OwnOrigin, ThatMovesPointsOutOfFloatsIsNamed) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.bpt", square("1", "1"));
+  const std::string message = "--origin: expected an origin whose distance from all points f32 can "
+                              "hold, found 1e+300 from " +
+                              in + ":3\n";
+  for (const Words& more : {Words{}, {"--no-weld"}, {"--shard", "1/1"}}) {
+    Words arguments = {"tessellate", in, "-o", folder.path("out.ply"), "--origin=-1e300,0,0"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_failure(run(arguments), 1, message);
+  }
   EXPECT_EQ(folder.names(), Words{"in.bpt"});
 }
 

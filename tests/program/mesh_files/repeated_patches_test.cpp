@@ -105,6 +105,27 @@ TEST(DropRepeated, NamesPatchesByTheirPlacesInTheFile) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"in.bez"});
 }
 
+// Vertices come in blocks of patches, of which the second one has none.
+TEST(RepeatedPatches, FillBlocksWithoutVertices) {
+  constexpr std::size_t kCount = 4096 + 1;
+  const TemporaryFolder folder;
+  std::string text = std::to_string(kCount) + "\n";
+  for (std::size_t k = 0; k < kCount; ++k) {
+    text += "1 1 0 0 0 1 0 0 0 1 0 1 1 0\n";
+  }
+  const std::string in = folder.write("in.bpt", text);
+  for (const std::string extension : {"obj", "ply", "stl", "glb", "vtu", "raw"}) {
+    for (const char* const more : {"--no-normals", "--parameters", "--flip"}) {
+      if (extension == "stl" && more == std::string("--parameters")) {
+        continue;
+      }
+      const ReadMesh mesh = read_mesh(extension, tessellated(in, extension, {"--grid", "2", more}));
+      EXPECT_EQ(mesh.faces.size(), 2 * kCount) << extension << " " << more;
+      EXPECT_GE(mesh.positions.size(), 4U);
+    }
+  }
+}
+
 TEST(InfoOfRepetitions, CountsThemWhicheverWayRound) {
   const TemporaryFolder folder;
   Net transposed;

@@ -88,8 +88,9 @@ TEST(BinaryPatches, become_text_that_reads_back) {
                  "expected bicubic patches without weights for a .bez file, found patch 0");
   expect_failure(run({"convert", sample_path("itd"), "-o", folder.path("d.obj")}), 1,
                  "with homogeneous weights");
-  expect_failure(run({"convert", "builtin:teapot", "-o", folder.path("d.ply")}), 2,
-                 "expected bez, bpt, obj or sbp, found 'ply'");
+  expect_failure(
+      run({"convert", "builtin:teapot", "-o", folder.path("d.ply")}), 2,
+      "-o: expected a name that ends in .bez, .bpt, .obj or .sbp, or - with --to, found");
   EXPECT_FALSE(std::filesystem::exists(folder.path("d.bez")));
 }
 

@@ -114,7 +114,12 @@ TEST_P(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
       {"evaluate builtin:teapot -o -", 2, "-o: expected a file that all ranks can write"},
       {"evaluate " + folder_.path("cut.sbp") + " -o " + folder_.path("a.csv"), 1,
        "expected block 0"},
-      {"info builtin:teapot", 2, "expected tessellate or evaluate"}};
+      {"info " + folder_.path("none.bez"), 1, "none.bez: expected a readable file"},
+      {"convert builtin:teapot -o " + folder_.path("a.stl"), 2, "-o: expected a name that ends in"},
+      {"join -o " + folder_.path("a.ply") + " --shards 2", 1, "expected a part of a mesh"},
+      {"join -o " + folder_.path("a.hdf") + " --shards 2", 2, "-o: expected a name that ends in"},
+      {"plan builtin:teapot --shards 2 -o " + folder_.path("a.hdf"), 2, "-o: expected a name that"},
+      {"draw builtin:teapot", 2, "expected tessellate, evaluate, info, convert, plan, join or"}};
   for (const Fault& fault : faults) {
     SCOPED_TRACE(fault.words);
     const Answer answer = run_ranks(3, fault.words);
@@ -124,6 +129,33 @@ TEST_P(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
     EXPECT_FALSE(std::filesystem::exists(folder_.path("fault.ply")));
     EXPECT_FALSE(has_leftovers());
   }
+}
+
+// Each of them is the program's, once.
+TEST_P(Mpi, the_first_rank_runs_other_commands) {
+  const std::string sbp = folder_.path("teapot.sbp");
+  const std::string out = folder_.path("out.ply");
+  for (const std::string& words :
+       {"convert builtin:teapot --sort -o " + sbp, "info " + sbp, "info " + sbp + " --json",
+        "plan " + sbp + " --shards 2 --grid 3 -o " + out, std::string("--help"),
+        std::string("join --help"), std::string("--version")}) {
+    SCOPED_TRACE(words);
+    const std::string said = folder_.path("said");
+    const std::string program = std::string(SIMDBEZIER_PROGRAM) + " " + words + " > " + said;
+    ASSERT_EQ(std::system(program.c_str()), 0);
+    const std::string bytes = words.starts_with("convert") ? read_file(sbp) : "";
+    const Answer answer = run_ranks(3, words);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_EQ(answer.out, read_file(said));
+    EXPECT_TRUE(bytes.empty() || read_file(sbp) == bytes);
+  }
+  for (const char* const shard : {"1/2", "2/2"}) {
+    expect_silent_success(run({"tessellate", sbp, "--grid", "3", "-o", out, "--shard", shard}));
+  }
+  EXPECT_EQ(run_ranks(3, "join --remove-parts --shards 2 -o " + out).exit_code, 0);
+  const std::string whole = folder_.path("whole.ply");
+  expect_silent_success(run({"tessellate", sbp, "--grid", "3", "-o", whole}));
+  EXPECT_TRUE(read_file(out) == read_file(whole));
 }
 
 // What a run that was killed has left is removed by the next one.

@@ -66,6 +66,15 @@ inline std::string ball_as_bv() {
   return text;
 }
 
+/// A square so many times, as .bpt: all but the first one own no vertex.
+inline std::string repeated_squares(std::size_t count) {
+  std::string text = std::to_string(count) + "\n";
+  for (std::size_t k = 0; k < count; ++k) {
+    text += "1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  }
+  return text;
+}
+
 struct PartModel {
   std::string name;
   std::string path;
@@ -76,7 +85,8 @@ inline std::vector<PartModel> part_models(const TemporaryFolder& folder) {
   std::vector<PartModel> models = {
       {"teapot", "builtin:teapot"},
       {"mixed shapes", std::string(SIMDBEZIER_TEST_DATA) + "/sample.itd"},
-      {"ball", folder.write("ball.bv", ball_as_bv())}};
+      {"ball", folder.write("ball.bv", ball_as_bv())},
+      {"repeated squares", folder.write("squares.bpt", repeated_squares(3))}};
   for (unsigned seed = 0; seed < 4; ++seed) {
     const std::string name = "gluings-" + std::to_string(seed);
     models.push_back({name, folder.write(name + ".bez", gluings_as_bez(seed, 4 + 4 * seed))});

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
 #include <tools/formats/patch_file.hpp>
 
 #include "tests/program/parts/part_models.hpp"
@@ -117,6 +119,34 @@ TEST(Shards, may_have_no_bound_on_their_deviation) {
   }
 }
 
+// Every part but the first one repeats a patch of the first.
+TEST(Shards, may_own_no_vertex) {
+  const TemporaryFolder folder;
+  const PartModel model{"squares", folder.write("squares.bpt", repeated_squares(3))};
+  for (const OptionsCase& item : option_cases()) {
+    SCOPED_TRACE(text_of(item.options) + " " + item.extension);
+    const std::string whole = folder.path(std::string("whole.") + item.extension);
+    expect_success(run(Options{"tessellate", model.path, "-o", whole} + item.options));
+    const std::string out = folder.path(std::string("parts.") + item.extension);
+    make_in_parts(model, item, 3, out);
+    EXPECT_TRUE(read_file(whole) == read_file(out));
+  }
+}
+
+TEST(Shards, of_one_point_are_joined) {
+  const TemporaryFolder folder;
+  const std::string point = "1 1\n1 2 3\n1 2 3\n1 2 3\n1 2 3\n";
+  const PartModel model{"point", folder.write("point.bpt", "2\n" + point + point)};
+  for (const char* const extension : {"glb", "stl", "ply"}) {
+    const Options options = {"--grid", "3", "--precision", "f64"};
+    const std::string whole = folder.path(std::string("whole.") + extension);
+    expect_success(run(Options{"tessellate", model.path, "-o", whole} + options));
+    const std::string out = folder.path(std::string("parts.") + extension);
+    make_in_parts(model, {extension, options}, 2, out);
+    EXPECT_TRUE(read_file(whole) == read_file(out));
+  }
+}
+
 TEST(Shards, of_binary_patches_are_those_of_text) {
   const TemporaryFolder folder;
   for (const PartModel& model : part_models(folder)) {
@@ -147,6 +177,8 @@ TEST(Shards, planned_commands_make_the_mesh) {
   script = "export PATH=" + folder_of_program + ":\"$PATH\"\nset -e\n" + script;
   ASSERT_EQ(std::system(("bash " + folder.write("plan.sh", script)).c_str()), 0);
   EXPECT_TRUE(read_file(whole) == read_file(out));
+  // What tessellate takes is planned.
+  EXPECT_EQ(run({"plan", in, "-o", out, "--grid=5000", "--no-weld", "--shards", "2"}).exit_code, 0);
 }
 
 TEST(Shards, that_are_there_are_not_made_again) {
@@ -176,6 +208,39 @@ TEST(Shards, that_are_there_are_not_made_again) {
   EXPECT_FALSE(read_file(part) == bytes);
 }
 
+// Statistics of a part that is there are what its file knows of those that it was made with.
+TEST(Shards, that_are_there_have_statistics) {
+  const TemporaryFolder folder;
+  for (const Options& more : {Options{"--grid", "3"},
+                              {"--grid", "3", "--quads"},
+                              {"--relative", "1e-2", "--quads"},
+                              {"--grid", "3", "--quantise", "16"}}) {
+    SCOPED_TRACE(text_of(more));
+    const std::string out = folder.path(more.back() == "16" ? "out.glb" : "out.ply");
+    const Options shard = {"tessellate", "builtin:teapot", "--shard", "2/3", "-o", out};
+    const Outcome made = run(shard + more + Options{"--stats=json"});
+    const Outcome again = run(shard + more + Options{"--stats=json"});
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_NE(again.err.find("is there already"), std::string::npos) << again.err;
+    const auto all = nlohmann::ordered_json::parse(made.out, nullptr, false);
+    nlohmann::ordered_json known = nlohmann::ordered_json::object();
+    for (const char* const name : {"patches", "vertices", "triangles", "deviation"}) {
+      known[name] = all.value(name, -1.0);
+    }
+    EXPECT_EQ(nlohmann::ordered_json::parse(again.out, nullptr, false), known);
+    const std::string text = run(shard + more + Options{"--stats"}).err;
+    EXPECT_NE(text.find("\ntriangles          " + all["triangles"].dump() + "\n"),
+              std::string::npos)
+        << text;
+  }
+  const Options loose = {
+      "tessellate", "builtin:teapot",         "--shard",     "1/2", "--no-weld", "--grid", "3",
+      "-o",         folder.path("loose.ply"), "--stats=json"};
+  static_cast<void>(run(loose));
+  const auto found = nlohmann::ordered_json::parse(run(loose).out, nullptr, false);
+  EXPECT_TRUE(found.contains("deviation") && found["deviation"].is_null()) << found;
+}
+
 TEST(Shards, number_comes_from_slurm) {
   const TemporaryFolder folder;
   const std::string out = folder.path("out.ply");
@@ -201,7 +266,9 @@ TEST(Shards, are_refused_where_they_cannot_be) {
   const TemporaryFolder folder;
   const std::string out = folder.path("out.ply");
   const std::string obj = folder.path("out.obj");
+  const std::string glb = folder.path("out.glb");
   const Options shard = {"tessellate", "builtin:teapot", "--shard", "1/2", "-o"};
+  const Options plan = {"plan", "builtin:teapot", "--shards", "2", "-o"};
   const Refusal refusals[] = {
       {shard + Options{out, "--orient"}, 2, "--orient: expected without parts of the mesh"},
       {shard + Options{out, "--snap", "1"}, 2, "--snap: expected without parts"},
@@ -216,6 +283,18 @@ TEST(Shards, are_refused_where_they_cannot_be) {
       {{"tessellate", "builtin:teapot", "-o", out, "--shard-patches", "8"},
        2,
        "--shard-patches: expected with simdbezier-mpi"},
+      {{"tessellate", "builtin:teapot", "-o", glb, "--shard", "1/2", "--quantise", "8",
+        "--relative", "1e-2"},
+       2,
+       "--shard: expected --grid, or vertices that are stored as they are computed"},
+      {plan + Options{glb, "--quantise", "8", "--relative", "1e-2"}, 2,
+       "--shards: expected --grid, or vertices that are stored as they are computed"},
+      {plan + Options{folder.path("out.stl"), "--precision", "f64", "--relative", "1e-2"}, 2,
+       "--shards: expected --grid, or vertices that are stored as they are computed"},
+      {plan + Options{out, "--grid", "5000"}, 2,
+       "--grid: expected at most 4097 samples a direction without --no-weld, found 5000x5000"},
+      {plan + Options{folder.path("two\nlines.ply")}, 2,
+       "plan: expected names of one line, since each command is printed as one"},
       {{"plan", "builtin:teapot", "-o", out}, 2, "--shards: expected"},
       {{"plan", "builtin:teapot", "-o", out, "--shards", "40"}, 1, "--shards: expected at most"},
       {{"join", "-o", out, "--shards", "2"}, 1, "out.ply.shard-1-of-2: expected a part of a mesh"}};

@@ -9,6 +9,7 @@
 #include <regex>
 #include <string>
 
+#include <tools/formats/text_input.hpp>
 #include <tools/process/failure.hpp>
 
 #include "tests/properties/accuracy/suite/evaluators.hpp"
@@ -63,6 +64,16 @@ struct Settings {
   return plugins;
 }
 
+[[nodiscard]] std::size_t parse_count(const std::string& option, const std::string& value) {
+  constexpr std::size_t kMost = 1'000'000; // far more than there is time for
+  const auto count = tools::parse_integer(value);
+  if (!count || *count < 1 || *count > kMost) {
+    tools::bad_usage(option + ": expected 1 to " + std::to_string(kMost) + ", found " +
+                     tools::in_quotes(value));
+  }
+  return *count;
+}
+
 [[nodiscard]] std::optional<Settings> parse(int argc, char** argv) {
   Settings settings;
   for (int k = 1; k < argc; ++k) {
@@ -88,16 +99,15 @@ struct Settings {
     } else if (name == "--filter") {
       settings.filter = value;
     } else if (name == "--nets") {
-      settings.size.nets = std::stoul(value);
+      settings.size.nets = parse_count(name, value);
     } else if (name == "--samples") {
-      settings.size.samples = std::stoul(value);
+      settings.size.samples = parse_count(name, value);
     } else {
       return std::nullopt;
     }
   }
   const bool complete = !settings.write_thresholds || !settings.thresholds.empty();
-  const bool some = settings.size.nets > 0 && settings.size.samples > 0;
-  return complete && some ? std::optional(settings) : std::nullopt;
+  return complete ? std::optional(settings) : std::nullopt;
 }
 
 template <typename T>
