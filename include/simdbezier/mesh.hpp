@@ -63,7 +63,8 @@ enum class RateLimit : std::uint8_t {
   errors, ///< its vertices' own errors, which leave nothing of the tolerance or have no bound
   angle,  ///< RateOptions::normal_degrees, which needs too many cells; the tolerance could be kept
   snap,   ///< moved edges, which leave too little of the tolerance
-  cells   ///< the tolerance, which needs more than RateOptions::most_segments cells a direction
+  cells,  ///< the tolerance, which needs more than RateOptions::most_segments cells a direction
+  length  ///< RateOptions::longest_edge, which needs too many cells; the tolerance could be kept
 };
 
 /// A limit, and the numbers of the patch that Report::item names.
@@ -93,7 +94,8 @@ struct MeshPlan {
   MeshLayout layout;
   /// The number of each patch of the set among those given. Empty: the same numbers.
   std::vector<std::uint32_t> patches;
-  /// Which part of a patch given each patch of the set is; empty without MeshOptions::split_edges.
+  /// Which part of a patch given each patch of the set is; empty if MeshOptions::split_edges is not
+  /// set, or nothing was cut.
   std::vector<PatchPiece> pieces;
   std::vector<std::uint32_t> cells_u; ///< of each patch of the set
   std::vector<std::uint32_t> cells_v;
@@ -147,10 +149,9 @@ template <typename T, typename S>
 ///          well. MeshPlan::patches has to be empty: no patches may have been left out or cut.
 /// options: topology, RateOptions::errors, drop_repeated, split_edges and local_origin are ignored,
 ///          because the plan was made with values of its own.
-///          not count: what the plan was made with holds.
-/// Returns: as choose_rates() and lay_out_mesh(); bad_topology for other nets, bad_rates if errors
-///          are not one value a patch. On an error the plan keeps what is read, with the report and
-///          the fault.
+/// Returns: as choose_rates() and lay_out_mesh(); null_input without a list of nets, bad_topology
+///          for other nets, bad_rates if errors are not one value a patch. On an error the plan
+///          keeps what is read, with the report and the fault.
 /// Memory, threads and cost: those of choose_rates() and lay_out_mesh().
 template <typename T, typename S>
 SIMDBEZIER_API Report plan_again(std::span<const ControlNets<S>> nets, const MeshOptions& options,

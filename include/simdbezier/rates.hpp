@@ -62,7 +62,8 @@ struct Camera {
   /// Patches that certainly lie outside of the circle around the picture's corners are not seen.
   bool skip_outside = false;
   /// Patches without weights are not seen, either, if du x dv certainly points away from the eye
-  /// everywhere: the far side of a closed model.
+  /// everywhere: the far side of a closed model. In plan_mesh(), this is the mesh's normal, which
+  /// TopologyOptions::orient and `flip` turn.
   bool skip_back = false;
 };
 
@@ -87,8 +88,8 @@ template <typename T>
 /// Formula: pixels * depth / (focal_length * f). The depth is that of the nearest control point, at
 ///          least Camera::nearest; f is the secant of the angle between the axis and the picture's
 ///          corners. An orthographic camera has pixels / focal_length.
-/// Unseen:  a patch that is skipped, or nearer than Camera::nearest, gets the diagonal of its box,
-///          at least Camera::nearest: as few cells as its edges allow. Meshes stay closed.
+/// Unseen:  a patch that is skipped, or nearer than Camera::nearest, gets kUnlimited: as few cells
+///          as its neighbours allow. Meshes stay closed.
 /// out:     one value a patch. Cost: one pass over the control points, on the caller's thread.
 /// Returns: ok | the statuses of views | bad_tolerance (pixels, or a member of the camera, that is
 ///          not above zero and finite) | output_too_small. Allocation: none.

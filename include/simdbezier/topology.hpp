@@ -131,8 +131,9 @@ template <typename S>
 /// Whether nets have all joints of a topology that was found for others of the same shapes, such as
 /// an earlier frame of a model that moves: sides that it joins still have equal control points (or
 /// are within TopologyOptions::snap of each other), and sides that it takes for points are points
-/// (within point_size). Meshes of such nets have no gap there. Sides that have become equal since
-/// then are not looked for. choose_rates() and certify_rates() refuse nets that do not fit.
+/// (within point_size or snap; sides that matched a point are as near to it as they were then).
+/// Meshes of such nets have no gap there. Sides that have become equal since then are not looked
+/// for. choose_rates() and certify_rates() refuse nets that do not fit.
 /// Allocation: some bytes a view. Cost: some 40 ns a patch; 1 us if snapped.
 /// Determinism: a function of the topology and the control points.
 /// Returns: false also if find_topology() would refuse the nets, or memory is lacking.

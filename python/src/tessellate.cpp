@@ -47,7 +47,10 @@ std::string blamed(Status status, const MeshOptions& options, const char* weight
   const bool absolute = std::isfinite(options.rates.tolerance) || !options.rates.tolerances.empty();
   switch (status.code()) {
   case Status::bad_tolerance: // all else that it is about has been checked
-    return relative && absolute ? "tolerance or relative" : relative ? "relative" : "tolerance";
+    return relative && absolute                                     ? "tolerance or relative"
+           : relative                                               ? "relative"
+           : !absolute && std::isfinite(options.rates.longest_edge) ? "longest_edge"
+                                                                    : "tolerance";
   case Status::bad_grid:
     return "grid";
   case Status::snap_too_large:

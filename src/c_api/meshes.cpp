@@ -52,11 +52,13 @@ const char* blamed_measure(const MeshOptions& options) {
   if (const char* const meaningless = detail::meaningless_measure(options)) {
     return meaningless;
   }
-  return !options.rates.tolerances.empty()           ? "tolerances"
-         : std::isfinite(options.rates.tolerance)    ? "tolerance"
-         : std::isfinite(options.relative_tolerance) ? "relative_tolerance"
-         : std::isfinite(options.pixels)             ? "pixels or camera"
-                                                     : "tolerance";
+  return !options.rates.tolerances.empty()             ? "tolerances"
+         : std::isfinite(options.rates.tolerance)      ? "tolerance"
+         : std::isfinite(options.relative_tolerance)   ? "relative_tolerance"
+         : std::isfinite(options.pixels)               ? "pixels or camera"
+         : std::isfinite(options.rates.longest_edge)   ? "longest_edge"
+         : std::isfinite(options.rates.normal_degrees) ? "normal_degrees"
+                                                       : "tolerance";
 }
 
 /// points: what of these is at fault where no option is.

@@ -13,6 +13,7 @@
 #include "src/choice/clock.hpp"
 #include "src/mesh/mesh_measures.hpp"
 #include "src/mesh/net_points.hpp"
+#include "src/mesh/rates/pixels.hpp"
 #include "src/nets/net_call.hpp"
 
 namespace simdbezier::detail {
@@ -118,8 +119,11 @@ private:
     SplitOptions how;
     how.snap = options_.topology.snap;
     const Status status = split_edges(nets_, split_, how, options_);
-    nets_ = status ? split_.nets : nets_;
     plan_.splits = split_.counts;
+    if (!status || split_.pieces.size() == patches_of(nets_)) { // all of them are whole
+      return status;
+    }
+    nets_ = split_.nets;
     std::vector<std::uint32_t> patches;
     for (PatchPiece& piece : split_.pieces) {
       piece.patch = plan_.patches.empty() ? piece.patch : plan_.patches[piece.patch];
@@ -241,12 +245,16 @@ private:
     fault.tolerance =
         how.tolerances.empty() ? how.tolerance : std::min(how.tolerance, how.tolerances[patch]);
     fault.error = plan_.errors[patch];
-    fault.limit = RateLimit::angle;
-    if (how.normal_degrees != kUnlimited) { // would it have its rates without the angle?
-      how.normal_degrees = kUnlimited;
-      const Report wider = choose_rates<S>(nets_, plan_.topology, how, rates, options_);
-      if (!is_too_fine(wider.status) || wider.item != patch) {
-        return;
+    // Would it have its rates without the angle, or without the length as well?
+    for (const auto& [measure, limit] : {std::pair(&RateOptions::normal_degrees, RateLimit::angle),
+                                         {&RateOptions::longest_edge, RateLimit::length}}) {
+      if (how.*measure != kUnlimited) {
+        how.*measure = kUnlimited;
+        fault.limit = limit;
+        const Report wider = choose_rates<S>(nets_, plan_.topology, how, rates, options_);
+        if (!is_too_fine(wider.status) || wider.item != patch) {
+          return;
+        }
       }
     }
     const bool has_room = std::isfinite(fault.error) && fault.tolerance != kUnlimited &&
@@ -268,8 +276,8 @@ private:
     }
     tolerances_.assign(plan_.set.size(), kUnlimited);
     if (pixels) {
-      if (const Status status =
-              pixel_tolerances<S>(nets_, options_.camera, options_.pixels, tolerances_);
+      if (const Status status = view_tolerances<S>(nets_, plan_.topology, options_.camera,
+                                                   options_.pixels, tolerances_);
           !status) {
         return status;
       }

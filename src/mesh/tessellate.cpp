@@ -202,7 +202,9 @@ Report plan_again(std::span<const ControlNets<S>> nets, const MeshOptions& optio
   plan.fault = {};
   plan.layout = {};
   plan.deviation = 0;
-  if (!plan.patches.empty() || detail::patches_of(nets) != plan.set.size()) {
+  if (detail::is_missing(nets)) {
+    plan.report.status = Status::null_input;
+  } else if (!plan.patches.empty() || detail::patches_of(nets) != plan.set.size()) {
     plan.report.status = Status::bad_topology;
   } else if (plan.errors.size() != plan.set.size()) {
     plan.report.status = Status::bad_rates;

@@ -47,7 +47,22 @@ constexpr bool is_missing(std::span<const ControlNets<S>> nets) noexcept {
 template <typename S>
 Status check_views(std::span<const ControlNets<S>> nets) noexcept;
 
-/// The patches of all views.
+/// The patches of all views: ok | null_input where there is no list of views | size_overflow.
+template <typename S>
+Status count_patches(std::span<const ControlNets<S>> nets, std::size_t& patches) noexcept {
+  if (is_missing(nets)) {
+    return Status::null_input;
+  }
+  patches = 0;
+  for (const ControlNets<S>& view : nets) {
+    if (__builtin_add_overflow(patches, view.count, &patches)) {
+      return Status::size_overflow;
+    }
+  }
+  return Status::ok;
+}
+
+/// The patches of all views, which can be counted.
 template <typename S>
 std::size_t patches_of(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patches = 0;

@@ -59,6 +59,16 @@ const Refusal<MeshWorld> kModels[] = {
      }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->longest_edge",
      [](MeshWorld& w) { return w.mesh_options.longest_edge = -1, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->longest_edge",
+     [](MeshWorld& w) {
+       w.mesh_options.tolerance = 0;
+       return w.mesh_options.longest_edge = 1e-9, w.tessellate();
+     }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->normal_degrees",
+     [](MeshWorld& w) {
+       w.mesh_options.tolerance = 0;
+       return w.mesh_options.normal_degrees = 1e-9, w.plan();
+     }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->normal_degrees",
      [](MeshWorld& w) { return w.mesh_options.normal_degrees = kNan, w.tessellate(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->point_size",

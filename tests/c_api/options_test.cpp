@@ -247,7 +247,7 @@ TEST(CMeshOptions, SplitEdges) {
     EXPECT_EQ(parts.splits, one.joined);
     EXPECT_EQ(parts.unjoined, one.unjoined);
     EXPECT_EQ(parts.largest_gap, arrays.largest_gap);
-    ASSERT_EQ(parts.pieces != nullptr, one.splits);
+    ASSERT_EQ(parts.pieces != nullptr, one.joined > 0);
     ASSERT_EQ(parts.patch_count, one.joined > 0 ? 4U : 3U);
     if (one.joined > 0) {
       const simdbezier_patch_piece& second = parts.pieces[1];

@@ -165,6 +165,88 @@ TYPED_TEST(Fits, snapped_sides_with_their_gap_of_now) {
   }
 }
 
+// How short a side has to be to count as a point says nothing of sides that are none.
+TYPED_TEST(Fits, sides_that_are_no_points_by_snap_alone) {
+  struct Row {
+    double snap;
+    double gap;
+    bool fits;
+  };
+  const Row rows[] = {{0, 0, true},        {0, 1e-3, false},    {0, 0.2, false},
+                      {0.01, 0.009, true}, {0.01, 0.02, false}, {0.01, 0.2, false}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(testing::Message() << "snap " << row.snap << ", gap " << row.gap);
+    TopologyOptions options;
+    options.snap = row.snap;
+    options.point_size = 0.25;
+    Frame<TypeParam> frame(two_sheets(row.gap));
+    frame.topology = Frame<TypeParam>(two_sheets(row.snap / 2), options).topology;
+    ASSERT_EQ(frame.topology.counts().edges, 7U);
+    EXPECT_EQ(fits(frame.topology, frame.nets()), row.fits);
+    EXPECT_EQ(frame.report().status == Status::bad_topology, !row.fits);
+  }
+}
+
+/// Flat triangles side by side whose tips are at y = 1: sides that are `size` long.
+MeshModel tips(std::size_t patches, double size) {
+  MeshModel model;
+  for (std::size_t p = 0; p < patches; ++p) {
+    PatchPoints& points = model.patches.emplace_back();
+    for (std::size_t k = 0; k < 16; ++k) {
+      const double x = static_cast<double>(p) + static_cast<double>(k % 4) / 3;
+      const double y = static_cast<double>(k / 4) / 3;
+      points[k / 4][k % 4] = {x * ((1 - y) + size * y), y, 0};
+    }
+  }
+  return model;
+}
+
+TYPED_TEST(Fits, short_sides_as_long_as_they_are_short) {
+  TopologyOptions of_points;
+  of_points.point_size = 0.01;
+  TopologyOptions of_snap;
+  of_snap.snap = 0.01;
+  for (const std::size_t patches : {1U, 2U, 7U}) { // whose tips reach farther than one may be long
+    for (const TopologyOptions& options : {of_points, of_snap}) {
+      for (const double found : {0.001, 0.009}) {
+        const Frame<TypeParam> first(tips(patches, found), options);
+        ASSERT_EQ(first.topology.counts().collapsed_sides, patches);
+        for (const double size : {0.0, 0.001, 0.009, 0.08, 0.2}) {
+          SCOPED_TRACE(testing::Message() << patches << " patches, snap " << options.snap
+                                          << ", found at " << found << ", now " << size);
+          Frame<TypeParam> frame(tips(patches, size));
+          frame.topology = first.topology;
+          EXPECT_EQ(fits(frame.topology, frame.nets()), size < 0.01);
+        }
+      }
+    }
+  }
+}
+
+// Such a side may be longer than `snap`: all of its points are as near to the one that it matched.
+TYPED_TEST(Fits, open_sides_that_matched_a_point) {
+  const auto model = [](double size) {
+    MeshModel both = tips(2, 0);
+    // The second one is upside down, with its tip above that of the first.
+    for (std::size_t k = 0; k < 16; ++k) {
+      const double x = static_cast<double>(k % 4) / 3 - 0.5;
+      const double y = static_cast<double>(k / 4) / 3;
+      both.patches[1][k / 4][k % 4] = {x * (y + size * (1 - y)), 1 + y, 0};
+    }
+    return both;
+  };
+  TopologyOptions options;
+  options.snap = 0.01;
+  const Frame<TypeParam> first(model(0.018), options);
+  ASSERT_EQ(first.topology.counts().collapsed_sides, 2U);
+  for (const double size : {0.0, 0.005, 0.018, 0.03, 0.5}) {
+    SCOPED_TRACE(size);
+    Frame<TypeParam> frame(model(size));
+    frame.topology = first.topology;
+    EXPECT_EQ(fits(frame.topology, frame.nets()), size < 0.02);
+  }
+}
+
 TYPED_TEST(Fits, no_nets_of_another_shape) {
   const Frame<TypeParam> frame(two_sheets(0));
   const std::vector<TypeParam> points(3 * 9 * 2);

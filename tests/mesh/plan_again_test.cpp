@@ -114,6 +114,32 @@ TEST(PlanAgain, refuses_other_nets_and_keeps_the_plan) {
   EXPECT_EQ(plan_again(repeated, options, plan).status, Status::bad_topology);
 }
 
+/// Patches that no edge had to be cut for are those given.
+TEST(PlanAgain, takes_a_plan_of_which_nothing_was_cut) {
+  const std::vector<double> values = torus_values();
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  MeshOptions options{.rates = {.tolerance = 1e-2}};
+  const MeshPlan<double> whole = plan_mesh<double>(nets, options);
+  options.split_edges = true;
+  MeshPlan<double> plan = plan_mesh<double>(nets, options);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan.splits.splits, 0U);
+  EXPECT_TRUE(plan.patches.empty() && plan.pieces.empty());
+  expect_equal(plan, whole);
+  EXPECT_TRUE(plan_again(nets, options, plan));
+  expect_equal(plan, whole);
+
+  std::vector<double> twice = values; // those left out have no number
+  twice.insert(twice.begin(), values.end() - 48, values.end());
+  options.drop_repeated = true;
+  const MeshPlan<double> once =
+      plan_mesh<double>(ControlNets<double>::packed(std::span<const double>(twice)), options);
+  ASSERT_TRUE(once);
+  EXPECT_TRUE(once.pieces.empty());
+  ASSERT_EQ(once.patches.size(), whole.set.size());
+  EXPECT_EQ(once.patches.back(), whole.set.size() - 1);
+}
+
 struct Refusal {
   std::string name;
   MeshOptions options;
@@ -130,7 +156,28 @@ TEST(RateFault, names_what_keeps_a_patch_from_its_tolerance) {
       {"angle and cells",
        {.rates = {.tolerance = 1e-3, .normal_degrees = 1e-3, .most_segments = 2}},
        0,
-       RateLimit::cells}};
+       RateLimit::cells},
+      {"length", {.rates = {.longest_edge = 1e-6}}, 0, RateLimit::length},
+      {"length beside a tolerance",
+       {.rates = {.tolerance = 10, .longest_edge = 1e-6}},
+       0,
+       RateLimit::length},
+      {"length beside an angle",
+       {.rates = {.longest_edge = 1e-6, .normal_degrees = 90}},
+       0,
+       RateLimit::length},
+      {"angle beside a length",
+       {.rates = {.longest_edge = 10, .normal_degrees = 1e-3}},
+       0,
+       RateLimit::angle},
+      {"length and cells",
+       {.rates = {.tolerance = 1e-3, .longest_edge = 1e-6, .most_segments = 2}},
+       0,
+       RateLimit::cells},
+      {"rounding beside a length",
+       {.rates = {.tolerance = 1e-9, .longest_edge = 10}},
+       1000,
+       RateLimit::errors}};
   for (const Refusal& refusal : refusals) {
     std::vector<double> values = torus_values();
     for (double& value : values) {

@@ -257,6 +257,38 @@ TEST(Snapping, leaves_what_is_farther_apart) {
   }
 }
 
+// Distances of the size of a rounding of the coordinates: cells of that size have no place for a
+// middle between two ends, which is rounded.
+TEST(Snapping, joins_sides_that_are_a_rounding_apart) {
+  const double u = std::ldexp(1, -33); // one rounding of the numbers from 2^19 to 2^20
+  for (const double sign : {1.0, -1.0}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (int place = 0; place < 40; ++place) {
+        SCOPED_TRACE(place);
+        const double x = 600000 + place * u;
+        const double from[] = {x - 5, x, x - 5, x + u, x + u, x + 5, x + 2 * u, x + 5};
+        std::vector<double> values(24);
+        for (std::size_t k = 0; k < 8; ++k) {
+          values[3 * k + axis] = sign * from[k];
+          values[3 * k + (axis + 1) % 3] = k / 2 % 2 == 0 ? 0 : 1;
+        }
+        Topology topology;
+        TopologyOptions options;
+        options.snap = u;
+        ASSERT_EQ(
+            find_topology(ControlNets<double>::packed(values.data(), 2, 1, 1), topology, options),
+            Status::ok);
+        EXPECT_EQ(topology.counts().snapped_sides, 2U);
+        options.snap = u / 2;
+        ASSERT_EQ(
+            find_topology(ControlNets<double>::packed(values.data(), 2, 1, 1), topology, options),
+            Status::ok);
+        EXPECT_EQ(topology.counts().snapped_sides, 0U);
+      }
+    }
+  }
+}
+
 TEST(Snapping, takes_the_closest_pairs) {
   // Three planes with one side each near the same line: the two that are closest are joined.
   MeshModel model{"three", {}, 0, 0};

@@ -1,5 +1,6 @@
 // Long edges against several short ones: patches are cut until edges are equal.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -397,6 +398,34 @@ TEST(SplitEdgesInput, odd_values_end) {
       const Status status = split_edges<double>(views.nets, split);
       EXPECT_LE(split.pieces.size(), 24U);
       EXPECT_TRUE(status || split.pieces.empty());
+    }
+  }
+}
+
+// Values that are no numbers keep no others from their edges, wherever their patches stand.
+TEST(SplitEdgesInput, patches_without_a_place_leave_all_others_alone) {
+  constexpr std::size_t kModels = 10;
+  std::mt19937 random(1);
+  const auto rectangle = [](double x, double low, double high) {
+    return std::array<double, 12>{x, low, 0, x + 1, low, 0, x, high, 0, x + 1, high, 0};
+  };
+  for (const double odd :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (int round = 0; round < 50; ++round) {
+      std::vector<std::array<double, 12>> patches;
+      for (std::size_t k = 0; k < kModels; ++k) {
+        const auto x = static_cast<double>(20 * k);
+        patches.push_back(rectangle(x, 0, 1));
+        patches.push_back(rectangle(x + 1, 0, 0.5));
+        patches.push_back(rectangle(x + 1, 0.5, 1));
+        patches.push_back(rectangle(static_cast<double>(random() % 200), 3, 4));
+        patches.back()[0] = patches.back()[6] = odd;
+      }
+      std::shuffle(patches.begin(), patches.end(), random);
+      const auto nets = ControlNets<double>::packed(patches.front().data(), patches.size(), 1, 1);
+      SplitNets<double> split;
+      ASSERT_EQ(split_edges(std::span(&nets, 1), split), Status::ok);
+      EXPECT_EQ(split.counts.splits, 2 * kModels);
     }
   }
 }

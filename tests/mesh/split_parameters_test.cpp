@@ -304,6 +304,42 @@ TYPED_TEST(SplitParameters, of_tessellate_are_those_of_the_same_mesh) {
   }
 }
 
+/// A patch two sides of which, those that meet in a corner, are one point.
+PatchPoints with_two_points(std::size_t corner) {
+  PatchPoints patch;
+  for (std::size_t k = 0; k < 16; ++k) {
+    const auto a = static_cast<double>(corner % 2 == 0 ? k % 4 : 3 - k % 4);
+    const auto b = static_cast<double>(corner < 2 ? k / 4 : 3 - k / 4);
+    const bool pole = a == 0 || b == 0;
+    patch[k / 4][k % 4] = {pole ? 0 : a, pole ? 0 : b, pole ? 0 : a * b / 4};
+  }
+  return patch;
+}
+
+TYPED_TEST(SplitParameters, are_of_the_point_that_two_sides_of_a_patch_are) {
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    MeshModel model;
+    model.patches = {with_two_points(corner)};
+    const std::vector<double> values = model.values();
+    for (const Request& request : kRequests) {
+      SCOPED_TRACE(std::string(request.name) + ", corner " + std::to_string(corner));
+      MeshOptions options;
+      request.change(options);
+      options.parameters = true;
+      const auto mesh =
+          tessellate<TypeParam>(ControlNets<double>::packed(values.data(), 1, 3, 3), options);
+      ASSERT_TRUE(mesh);
+      for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        const auto& [u, v] = mesh.parameters[k];
+        const auto& x = mesh.positions[k];
+        const Point exact =
+            surface(model.patches[0], static_cast<double>(u), static_cast<double>(v));
+        EXPECT_LT(length(exact - Point{x[0], x[1], x[2]}), 1e-4) << "vertex " << k;
+      }
+    }
+  }
+}
+
 TEST(SplitParametersOfNothing, are_none) {
   MeshLayout split;
   EXPECT_EQ(split_parameters(MeshLayout(), split), Status::ok);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <simdbezier/evaluate.hpp>
+#include <simdbezier/mesh.hpp>
 #include <simdbezier/rates.hpp>
 #include <simdbezier/splines.hpp>
 
@@ -127,7 +128,7 @@ TEST(View, skips_what_is_beside_the_picture_or_faces_away) {
         });
         const bool skips = tolerances[p] != all[p];
         EXPECT_TRUE(is_unseen || !skips) << "round " << round << ", kind " << kind << ", " << p;
-        EXPECT_TRUE(!skips || tolerances[p] > 0.3) << "as large as the patch";
+        EXPECT_TRUE(!skips || tolerances[p] == kUnlimited);
         unseen[kind] += is_unseen ? 1 : 0;
         skipped[kind] += skips ? 1 : 0;
       }
@@ -148,7 +149,7 @@ TEST(View, has_pixels_of_one_size_where_it_is_parallel) {
   }
   camera.direction = {0, 0, 1}; // the torus lies behind the eye
   for (const double tolerance : torus.tolerances(camera)) {
-    EXPECT_GT(tolerance, 0.3);
+    EXPECT_EQ(tolerance, kUnlimited);
   }
 }
 
@@ -167,7 +168,73 @@ TEST(View, keeps_rational_patches_that_face_away) {
   std::vector<double> tolerances(Torus::patches());
   ASSERT_TRUE(pixel_tolerances(nets, camera, 1, std::span(tolerances)));
   EXPECT_LT(*std::ranges::max_element(tolerances), 0.1);
-  EXPECT_GT(std::ranges::max(torus.tolerances(camera)), 0.3);
+  EXPECT_EQ(std::ranges::max(torus.tolerances(camera)), kUnlimited);
+}
+
+/// What faces away has fewer cells: nothing is asked of it.
+void expect_fewer_cells_of_the_back(const MeshPlan<double>& all, const MeshPlan<double>& seen,
+                                    const Camera& camera, const Torus& torus, double sign) {
+  ASSERT_TRUE(all && seen);
+  std::size_t skipped = 0;
+  for (std::size_t p = 0; p < Torus::patches(); ++p) {
+    const bool away = all_samples(p, [&](std::size_t k) {
+      const Point& normal = torus.normals[k];
+      return faces_away(camera, torus.positions[k],
+                        {sign * normal[0], sign * normal[1], sign * normal[2]});
+    });
+    const bool fewer = seen.cells_u[p] * seen.cells_v[p] < all.cells_u[p] * all.cells_v[p];
+    EXPECT_TRUE(away || (seen.cells_u[p] == all.cells_u[p] && seen.cells_v[p] == all.cells_v[p]))
+        << p;
+    skipped += fewer ? 1 : 0;
+  }
+  EXPECT_GT(skipped, Torus::patches() / 5);
+}
+
+// A plan judges by the normals that the mesh has: those of a flipped torus point inwards, so that
+// its near side faces away, and the inside of its far side is seen.
+TEST(View, goes_by_the_normals_of_the_mesh) {
+  const Torus torus;
+  for (const bool flip : {false, true}) {
+    SCOPED_TRACE(flip);
+    MeshOptions options;
+    options.pixels = 0.2;
+    options.camera.eye = {0, 0, 9};
+    options.topology.flip = flip;
+    const MeshPlan<double> all = plan_mesh<double>(torus.nets(), options);
+    options.camera.skip_back = true;
+    MeshPlan<double> seen = plan_mesh<double>(torus.nets(), options);
+    const double sign = flip ? -1 : 1;
+    expect_fewer_cells_of_the_back(all, seen, options.camera, torus, sign);
+    options.topology.flip = false; // the plan has its topology
+    EXPECT_TRUE(plan_again(torus.nets(), options, seen));
+    expect_fewer_cells_of_the_back(all, seen, options.camera, torus, sign);
+  }
+}
+
+// As small and as far from the origin as the second patch is, no mesh keeps a tolerance of its
+// size, which is not asked for: it is behind the camera.
+TEST(View, asks_nothing_of_patches_behind_the_camera) {
+  std::vector<float> values;
+  for (const double z : {-1000.0, 50.0}) {
+    for (std::size_t k = 0; k < 16; ++k) {
+      const double size = z < 0 ? 100.0 / 3 : 0.1 / 3;
+      const auto i = static_cast<double>(k % 4);
+      const auto j = static_cast<double>(k / 4);
+      for (const double x : {size * i, size * j, z + size * i * j / 10}) {
+        values.push_back(static_cast<float>(1e6 + x));
+      }
+    }
+  }
+  MeshOptions options;
+  options.pixels = 1;
+  options.camera.eye = {1e6, 1e6, 1e6};
+  for (const bool thorough : {false, true}) {
+    options.rates.thorough = thorough;
+    const auto plan = plan_mesh<float>(ControlNets<float>::packed(values.data(), 2, 3, 3), options);
+    ASSERT_EQ(plan.report.status, Status::ok);
+    EXPECT_LE(plan.deviations[0], 2.0);
+    EXPECT_EQ(plan.cells_u[1] * plan.cells_v[1], 1U);
+  }
 }
 
 /// Nets are measured several at once, unless they are few or not side by side.

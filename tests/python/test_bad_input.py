@@ -298,6 +298,7 @@ CASES = [
     (ValueError, 'point_size', lambda: simdbezier.tessellate(POINTS, 0.1, point_size=-1)),
     (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, 0.1, longest_edge=0)),
     (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, grid=4, longest_edge=np.nan)),
+    (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, longest_edge=1e-9)),
     (TypeError, 'normals', lambda: simdbezier.tessellate(POINTS, 0.1, normals='smooth')),
     (TypeError, 'thorough', lambda: simdbezier.tessellate(POINTS, 0.1, thorough='very')),
     (ValueError, 'thorough: expected with tolerance or relative',

@@ -1,7 +1,7 @@
 // What nothing in the modules calls. The linker takes the first definition of a table, and of an
 // instance of a template: in front of the library's own, these leave their code out.
-#include <simdbezier/rates.hpp>
-
+#include "src/mesh/rates/pixels.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/tables/curve_table.hpp"
 #include "src/tables/derivative_task.hpp"
 #include "src/tables/mean_task.hpp"
@@ -52,17 +52,15 @@ void mean_points(const detail::PointMeansTask& /*task*/) { __builtin_trap(); }
 
 } // namespace simdbezier::isa_simd128
 
-namespace simdbezier {
+namespace simdbezier::detail {
 
 // Tolerances in pixels.
 template <typename S>
-Status pixel_tolerances(std::span<const ControlNets<S>> /*nets*/, const Camera& /*camera*/,
-                        double /*pixels*/, std::span<double> /*out*/) noexcept {
+Status view_tolerances(std::span<const ControlNets<S>> /*nets*/, const Topology& /*topology*/,
+                       const Camera& /*camera*/, double /*pixels*/,
+                       std::span<double> /*out*/) noexcept {
   __builtin_trap();
 }
-template Status pixel_tolerances(std::span<const ControlNets<float>>, const Camera&, double,
-                                 std::span<double>) noexcept;
-template Status pixel_tolerances(std::span<const ControlNets<double>>, const Camera&, double,
-                                 std::span<double>) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(view_tolerances);
 
-} // namespace simdbezier
+} // namespace simdbezier::detail

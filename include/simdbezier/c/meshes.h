@@ -186,7 +186,7 @@ typedef struct simdbezier_mesh_plan_parts {
   const double* deviations;
   double deviation;
   double diagonal;
-  const simdbezier_patch_piece* pieces; // null without `split_edges`
+  const simdbezier_patch_piece* pieces; // null if nothing was cut
   size_t splits;                        // as in simdbezier_mesh_arrays
   size_t unjoined;
   double largest_gap;

@@ -40,10 +40,10 @@ Report certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t cells_u
                      std::uint32_t cells_v, std::span<const double> errors,
                      std::span<double> deviation, const RunOptions& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  if (detail::is_missing(nets)) {
-    return {Status::null_input};
+  std::size_t patches = 0;
+  if (const Status status = detail::count_patches(nets, patches); !status) {
+    return {status};
   }
-  const std::size_t patches = detail::patches_of(nets);
   const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
   if (!is_rate(cells_u) || !is_rate(cells_v) || deviation.size() != patches ||
       !(errors.empty() || errors.size() == patches)) {

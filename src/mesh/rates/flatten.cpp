@@ -292,7 +292,8 @@ Report choose_polylines(const ControlCurves<S>& curves, const FlattenOptions& op
       curves.count, 150, run.threads, [&](std::size_t k) { return choose(k) == Status::ok; });
   if (curve < curves.count) {
     const detail::DefaultFpEnvironment environment;
-    return {choose(curve), curve};
+    const Status again = choose(curve);
+    return {again ? Status::out_of_memory : again, curve}; // nothing else passes by itself
   }
   return {};
 }

@@ -1,12 +1,13 @@
-// See rates.hpp: tolerances from what a camera sees.
+// See pixels.hpp, and pixel_tolerances() in rates.hpp.
+#include "src/mesh/rates/pixels.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include <simdbezier/rates.hpp>
-
 #include "src/mesh/net_points.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -48,7 +49,7 @@ IntervalVector intervals_of(const PointBox& box) {
 /// The camera's axis, and the size in pixels at which distances are seen.
 class View {
 public:
-  explicit View(const Camera& camera) : camera_(camera) {
+  View(const Camera& camera, const Topology& topology) : camera_(camera), topology_(topology) {
     int exponent = 0; // whatever the direction's length, its square is neither 0 nor infinite
     axis_ =
         scaled_to_one({{camera.direction[0], camera.direction[1], camera.direction[2]}}, exponent);
@@ -64,9 +65,10 @@ public:
            is_positive(camera_.height) && is_positive(camera_.nearest) &&
            is_finite({{eye[0], eye[1], eye[2]}});
   }
-  /// Writes the tolerances of a view's patches.
+  /// Writes the tolerances of a view's patches, whose numbers in the topology are from `first` on.
   template <typename S>
-  void write_tolerances(const ControlNets<S>& nets, double pixels, double* out) const {
+  void write_tolerances(const ControlNets<S>& nets, std::size_t first, double pixels,
+                        double* out) const {
     const NetView<const S> view = view_of(nets);
     Isa isa = Isa::automatic;
     const bool measured = resolve_isa(isa, isa) == Status::ok && view.packed &&
@@ -82,7 +84,8 @@ public:
                                                        nets.patch_stride, camera_.eye.data(),
                                                        axis_.x, nearest, farthest);
       for (std::size_t k = 0; k < kMeasured; ++k) {
-        out[patch + k] = tolerance(nets, patch + k, nearest[k], farthest[k], pixels);
+        out[patch + k] =
+            sees(nets, patch + k, first, farthest[k]) ? tolerance(nearest[k], pixels) : kUnlimited;
       }
     }
     for (; patch < nets.count; ++patch) {
@@ -93,25 +96,28 @@ public:
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
       });
-      out[patch] = tolerance(nets, patch, nearest, farthest, pixels);
+      out[patch] = sees(nets, patch, first, farthest) ? tolerance(nearest, pixels) : kUnlimited;
     }
   }
 
 private:
-  /// nearest, farthest: depths of the points, times the length of the camera's direction.
-  template <typename S>
-  [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch, double nearest,
-                                 double farthest, double pixels) const {
-    const bool behind = farthest / length_ < camera_.nearest;
-    if (behind || camera_.skip_outside || camera_.skip_back) { // else nothing asks for a box
-      const PointBox box = box_of(nets, patch);
-      if (behind || (camera_.skip_outside && is_outside(box)) ||
-          (camera_.skip_back && is_back(nets, patch, box))) {
-        return std::max(box.diagonal(), camera_.nearest);
-      }
-    }
+  // nearest, farthest: depths of a patch's points, times the length of the camera's direction.
+  [[nodiscard]] double tolerance(double nearest, double pixels) const {
     const double depth = std::max(nearest / length_, camera_.nearest);
     return pixels * (camera_.orthographic ? 1 : depth) / pixels_per_unit_;
+  }
+  template <typename S>
+  [[nodiscard]] bool sees(const ControlNets<S>& nets, std::size_t patch, std::size_t first,
+                          double farthest) const {
+    if (farthest / length_ < camera_.nearest) {
+      return false;
+    }
+    if (!camera_.skip_outside && !camera_.skip_back) { // then nothing asks for a box
+      return true;
+    }
+    const PointBox box = box_of(nets, patch);
+    return !(camera_.skip_outside && is_outside(box)) &&
+           !(camera_.skip_back && is_back(nets, patch, box, topology_.is_turned(first + patch)));
   }
 
   [[nodiscard]] double along_axis(const Point3& point) const {
@@ -134,11 +140,12 @@ private:
     const double rounding = kMargin * (length(from_eye) + box.diagonal());
     return beside > box.diagonal() / 2 + rounding; // false where something is not finite
   }
-  /// Whether du x dv points away from the eye wherever the derivatives are between the differences
-  /// of control points, and the surface is between these.
+  /// Whether du x dv, or its negative where the patch is turned, points away from the eye wherever
+  /// the derivatives are between the differences of control points, and the surface is between
+  /// these.
   template <typename S>
-  [[nodiscard]] bool is_back(const ControlNets<S>& nets, std::size_t patch,
-                             const PointBox& box) const {
+  [[nodiscard]] bool is_back(const ControlNets<S>& nets, std::size_t patch, const PointBox& box,
+                             bool turned) const {
     if (nets.weights != Weights::none) {
       return false;
     }
@@ -170,11 +177,12 @@ private:
       size += (du[a].size() * dv[b].size() + du[b].size() * dv[a].size()) *
               (sight[c].size() + std::fabs(camera_.eye[c]));
     }
-    return facing.low > kMargin * size;
+    return (turned ? -facing.high : facing.low) > kMargin * size;
   }
 
   static constexpr double kMargin = 1e-12; ///< more than all roundings of a test
   const Camera& camera_;
+  const Topology& topology_;
   Point3 axis_;
   double length_;
   double radius_; ///< of the circle around the picture, in units, at a depth of one
@@ -183,33 +191,43 @@ private:
 };
 
 } // namespace
+
+template <typename S>
+Status view_tolerances(std::span<const ControlNets<S>> nets, const Topology& topology,
+                       const Camera& camera, double pixels, std::span<double> out) noexcept {
+  const View camera_view(camera, topology);
+  if (!camera_view.is_sound() || !is_positive(pixels)) {
+    return Status::bad_tolerance;
+  }
+  std::size_t patches = 0;
+  if (const Status status = count_patches(nets, patches); !status) {
+    return status;
+  }
+  for (const ControlNets<S>& view : nets) {
+    if (const Status status = check_in_space(view); !status) {
+      return status;
+    }
+  }
+  if (out.size() < patches) {
+    return Status::output_too_small;
+  }
+  std::size_t first = 0;
+  for (const ControlNets<S>& view : nets) {
+    camera_view.write_tolerances(view, first, pixels, out.data() + first);
+    first += view.count;
+  }
+  return Status::ok;
+}
+
+SIMDBEZIER_OF_BOTH_TYPES(view_tolerances);
+
 } // namespace detail
 
 template <typename S>
 Status pixel_tolerances(std::span<const ControlNets<S>> nets, const Camera& camera, double pixels,
                         std::span<double> out) noexcept {
   const detail::DefaultFpEnvironment environment;
-  const detail::View camera_view(camera);
-  if (!camera_view.is_sound() || !detail::is_positive(pixels)) {
-    return Status::bad_tolerance;
-  }
-  if (detail::is_missing(nets)) {
-    return Status::null_input;
-  }
-  for (const ControlNets<S>& view : nets) {
-    if (const Status status = detail::check_in_space(view); !status) {
-      return status;
-    }
-  }
-  if (out.size() < detail::patches_of(nets)) {
-    return Status::output_too_small;
-  }
-  std::size_t first = 0;
-  for (const ControlNets<S>& view : nets) {
-    camera_view.write_tolerances(view, pixels, out.data() + first);
-    first += view.count;
-  }
-  return Status::ok;
+  return detail::view_tolerances(nets, Topology(), camera, pixels, out);
 }
 
 template SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<float>>, const Camera&,

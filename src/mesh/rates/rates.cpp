@@ -17,15 +17,16 @@ namespace {
 template <typename S>
 Report check(std::span<const ControlNets<S>> nets, const Topology& topology,
              std::span<const double> errors, const CertifiedRates& out, int threads) {
-  if (is_missing(nets)) {
-    return {Status::null_input};
-  }
   std::size_t patches = 0;
+  if (const Status status = count_patches(nets, patches); !status) {
+    return {status};
+  }
+  std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
     if (const Status status = check_in_space(view); !status) {
-      return {status, patches};
+      return {status, first};
     }
-    patches += view.count;
+    first += view.count;
   }
   const std::size_t joined = topology.counts().patches;
   const auto fits = [&](std::size_t size) { return size == patches; };
@@ -125,7 +126,8 @@ Report choose_rates(std::span<const ControlNets<S>> nets, const Topology& topolo
     if (report && call.take_back(usual, false)) {
       report = separate(report);
     }
-    if (!report || call.take_back(usual, false)) {
+    const bool has_memory = report.status != Status::out_of_memory; // all else is of fewer cells
+    if (has_memory && (!report || call.take_back(usual, false))) {
       call.take_back(usual, true);
       report = {};
     }

@@ -38,11 +38,14 @@ public:
     for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
       const auto sides = topology.sides_of(edge);
       if (sides.size() == 1) {
-        OpenSide& open = open_.emplace_back();
-        open.side = sides[0];
+        OpenSide open{sides[0], {}, 0};
         nets.read_side(open.side, open.net);
-        open.near = std::max(snap, open.net.reach(open.net.points.front()) / 32);
-        box.include(open.net.points.front());
+        const double size = open.net.reach(open.net.points.front());
+        if (std::isfinite(size)) { // others have no place among the rest
+          open.near = std::max(snap, size / 32);
+          box.include(open.net.points.front());
+          open_.push_back(open);
+        }
       }
     }
     for (std::size_t c = 1; c < 3; ++c) {

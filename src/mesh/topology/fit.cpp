@@ -29,7 +29,7 @@ public:
     for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
       joined = joined && is_joined(side);
     }
-    return joined || is_near(patch);
+    return joined || are_near(patch);
   }
 
 private:
@@ -41,13 +41,23 @@ private:
     const std::size_t first = topology_.sides_of(own.edge())[0];
     return first == side || edges_[side].turned(own.reversed()) == edges_[first];
   }
-  /// Whether sides that were snapped, or were short enough to be points, still are. A model that
-  /// moves as a whole rounds its points anew.
-  [[nodiscard]] bool is_near(std::size_t patch) const {
-    constexpr double kMoved = 1 + 0x1p-10;
-    const double most = std::max(topology_.joined_within, topology_.displacement_of(patch));
-    return topology_.joined_within > 0 &&
-           find_displacement(corners_, topology_, patch) <= kMoved * most;
+  /// Whether sides that were snapped, or were short enough to be points, still are.
+  [[nodiscard]] bool are_near(std::size_t patch) const {
+    bool near = topology_.point_size > 0;
+    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+      near = near && (is_joined(side) || is_near(side));
+    }
+    return near;
+  }
+  [[nodiscard]] bool is_near(std::size_t side) const {
+    constexpr double kMoved = 1 + 0x1p-10; // a model that moves as a whole rounds its points anew
+    const bool point = topology_.sides[side].collapsed();
+    if (point && corners_.side_within(side, kMoved * topology_.point_size)) {
+      return true;
+    }
+    // An open side that matched a point may have been longer than those that are points anyway.
+    const double most = point ? topology_.displacement_of(side / kPatchEdges) : topology_.snap;
+    return topology_.snap > 0 && distance_from_joint(corners_, topology_, side) <= kMoved * most;
   }
 
   const TopologyData& topology_;

@@ -4,17 +4,39 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <cstddef>
 
 #include "src/mesh/net_points.hpp"
 #include "src/storage/net_shape.hpp"
 
 namespace simdbezier::detail {
 
+/// A value for each control point of a side. Nothing is allocated, so that sides can be compared
+/// where a lack of memory could not be reported.
+template <typename Value>
+class SideValues {
+public:
+  void push_back(const Value& value) noexcept { values_[size_++] = value; }
+  void clear() noexcept { size_ = 0; }
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] Value* begin() noexcept { return values_.data(); }
+  [[nodiscard]] Value* end() noexcept { return begin() + size_; }
+  [[nodiscard]] const Value* begin() const noexcept { return values_.data(); }
+  [[nodiscard]] const Value* end() const noexcept { return begin() + size_; }
+  [[nodiscard]] const Value& front() const noexcept { return values_[0]; }
+  [[nodiscard]] const Value& back() const noexcept { return values_[size_ - 1]; }
+  [[nodiscard]] const Value& operator[](std::size_t k) const noexcept { return values_[k]; }
+
+private:
+  std::size_t size_ = 0;
+  std::array<Value, kMostOrder> values_{};
+};
+
 /// The control points of one side, in its direction; weights of 1 where there are none.
 struct SideNet {
-  std::vector<Point3> points;
-  std::vector<double> weights;
+  SideValues<Point3> points;
+  SideValues<double> weights;
 
   /// The largest distance of any control point from a point; nan where one is nan.
   [[nodiscard]] double reach(const Point3& from) const noexcept {

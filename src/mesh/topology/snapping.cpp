@@ -33,7 +33,7 @@ void raise(SideNet& curve) {
                                           : point);
     raised.weights.push_back(weight);
   }
-  curve = std::move(raised);
+  curve = raised;
 }
 
 /// Divides by the largest weight, which does not change the curve.
@@ -45,9 +45,11 @@ void scale_weights(SideNet& curve) {
 }
 
 bool same_weights(const SideNet& a, const SideNet& b, bool reversed) {
-  return reversed
-             ? std::equal(a.weights.begin(), a.weights.end(), b.weights.rbegin(), b.weights.rend())
-             : a.weights == b.weights;
+  bool same = a.weights.size() == b.weights.size();
+  for (std::size_t k = 0; same && k < a.weights.size(); ++k) {
+    same = a.weights[k] == b.weights[reversed ? b.weights.size() - 1 - k : k];
+  }
+  return same;
 }
 
 /// The largest distance between control points of two curves of one degree; infinite where one is
@@ -98,7 +100,7 @@ public:
       bool finite = true;
       for (std::size_t c = 0; c < 3; ++c) {
         const double middle = (net.points.front().x[c] + net.points.back().x[c]) / 2;
-        placed.cell[c] = std::floor(middle / distance);
+        placed.cell[c] = std::floor(place_of(middle));
         finite = finite && std::isfinite(placed.cell[c]);
       }
       if (finite) {
@@ -137,6 +139,12 @@ public:
   }
 
 private:
+  /// A coordinate on a scale whose steps are the distance plus 2^-40 of the coordinate, which is
+  /// more than all roundings: of middles, of distances, and of this.
+  [[nodiscard]] double place_of(double middle) const {
+    const double steps = std::log1p(std::fabs(middle) / distance_ * 0x1p-40) * 0x1p40;
+    return std::copysign(steps, middle);
+  }
   void compare(std::uint32_t a, std::uint32_t b, std::vector<Match>& matches) {
     nets_.read_side(b, other_);
     const double same = distance_of(own_, other_, false);
@@ -212,41 +220,33 @@ std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings& ri
 }
 
 template <typename S>
-double find_displacement(const NetCorners<S>& nets, const TopologyData& topology,
-                         std::size_t patch) {
-  double displacement = 0;
+double distance_from_joint(const NetCorners<S>& nets, const TopologyData& topology,
+                           std::size_t side) {
   SideNet own;
-  SideNet first;
-  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-    nets.read_side(side, own);
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Point3 vertex = nets.corner_point(topology.corner_of(side, end));
-      const Point3 d = (end == 0 ? own.points.front() : own.points.back()) - vertex;
-      displacement = std::max(displacement, length(d));
-      if (topology.sides[side].collapsed()) {
-        displacement = std::max(displacement, own.reach(vertex));
-      }
-    }
-    if (!topology.sides[side].collapsed()) {
-      nets.read_side(topology.sides_of(topology.sides[side].edge())[0], first);
-      const double moved = distance_of(own, first, topology.sides[side].reversed());
-      displacement = std::max(displacement, moved);
-    }
+  nets.read_side(side, own);
+  const Side& at = topology.sides[side];
+  if (at.collapsed()) {
+    return std::max(own.reach(nets.corner_point(topology.corner_of(side, 0))),
+                    own.reach(nets.corner_point(topology.corner_of(side, 1))));
   }
-  return displacement;
+  SideNet first;
+  nets.read_side(topology.sides_of(at.edge())[0], first);
+  return distance_of(own, first, at.reversed());
 }
 
 template <typename S>
 std::vector<double> find_displacements(const NetCorners<S>& nets, const TopologyData& topology) {
   std::vector<double> displacements(topology.patches());
-  for (std::size_t patch = 0; patch < displacements.size(); ++patch) {
-    displacements[patch] = find_displacement(nets, topology, patch);
+  for (std::size_t k = 0; k < kPatchEdges * displacements.size(); ++k) { // sides, and corners
+    const Point3 way = nets.corner_point(k) - nets.corner_point(topology.corners[k]);
+    double& own = displacements[k / kPatchEdges];
+    own = std::max({own, distance_from_joint(nets, topology, k), length(way)});
   }
   return displacements;
 }
 
 SIMDBEZIER_OF_BOTH_TYPES(snap_sides);
-SIMDBEZIER_OF_BOTH_TYPES(find_displacement);
+SIMDBEZIER_OF_BOTH_TYPES(distance_from_joint);
 SIMDBEZIER_OF_BOTH_TYPES(find_displacements);
 
 } // namespace simdbezier::detail

@@ -1,6 +1,9 @@
 // Open sides that match nearly, and what that moves.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "src/mesh/topology/net_corners.hpp"
 #include "src/nets/edge_rings.hpp"
 
@@ -18,11 +21,12 @@ namespace simdbezier::detail {
 template <typename S>
 std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings& rings);
 
-/// How far the vertices of a patch may lie from where its own corners and edges would put them.
+/// How far a side may be from what it is joined with: the first side of its edge, or, where it
+/// counts as a point, the vertices at its ends. nan, or infinite, where a value is no number.
 template <typename S>
-double find_displacement(const NetCorners<S>& nets, const TopologyData& topology,
-                         std::size_t patch);
-/// The same of all patches.
+double distance_from_joint(const NetCorners<S>& nets, const TopologyData& topology,
+                           std::size_t side);
+/// How far the vertices of each patch may lie from where its own corners and edges would put them.
 template <typename S>
 std::vector<double> find_displacements(const NetCorners<S>& nets, const TopologyData& topology);
 

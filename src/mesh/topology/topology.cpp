@@ -54,10 +54,12 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
              TopologyData& topology) {
   topology.flags.assign(patches_of(nets), 0);
   topology.counts.patches = topology.patches();
+  topology.snap = options.snap;
+  topology.point_size = std::max(options.point_size, options.snap);
   const NetCorners<S> corners(nets);
   {
     auto rings = find_rings<S>(nets, threads);
-    collapse_short_sides(corners, std::max(options.point_size, options.snap), rings);
+    collapse_short_sides(corners, topology.point_size, rings);
     if (options.snap > 0) {
       topology.counts.snapped_sides = snap_sides(corners, options.snap, rings);
     }
@@ -65,8 +67,7 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
     EdgeNumbers(rings, shares, topology).run();
     CornerJoiner(shares, topology).run();
   }
-  if (options.snap > 0 || options.point_size > 0 || has_rounded_points(corners, topology)) {
-    topology.joined_within = std::max(options.snap, options.point_size);
+  if (topology.point_size > 0 || has_rounded_points(corners, topology)) {
     topology.displacement = find_displacements(corners, topology);
   }
   const std::vector<std::uint32_t> candidates = entanglement_candidates(topology, threads);
@@ -118,10 +119,11 @@ template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<double>
 template <typename S>
 Status find_distinct_nets(std::span<const ControlNets<S>> nets, const Topology& topology,
                           DistinctNets<S>& distinct) noexcept try {
-  if (detail::is_missing(nets)) {
-    return Status::null_input;
+  std::size_t patches = 0;
+  if (const Status status = detail::count_patches(nets, patches); !status) {
+    return status;
   }
-  if (detail::patches_of(nets) != topology.counts().patches) {
+  if (patches != topology.counts().patches) {
     return Status::unequal_lengths;
   }
   DistinctNets<S> found;

@@ -111,7 +111,8 @@ struct TopologyData {
   std::vector<std::uint8_t> apart;
   /// How far a patch's vertices may lie from its own corners and edges, by snapping; or empty.
   std::vector<double> displacement;
-  double joined_within = 0; ///< TopologyOptions::snap or point_size, the larger one
+  double snap = 0;       ///< TopologyOptions::snap
+  double point_size = 0; ///< sides up to this length are points: the larger of point_size and snap
   TopologyCounts counts;
 
   [[nodiscard]] std::size_t patches() const noexcept { return flags.size(); }

@@ -266,12 +266,15 @@ private:
     }
   }
 
-  /// A side that is a point has all parameters from 0 to 1, whose middle is near to all.
+  /// A side that is a point has all parameters from 0 to 1, whose middle is near to all. Where both
+  /// sides are, only one parameter is free: the middle of both would be inside of the patch.
   void put_corner_parameters(std::uint32_t corner, std::size_t vertex) const noexcept {
     const std::size_t patch = corner / kPatchCorners;
     const Side* const sides = &topology_.sides[kPatchEdges * patch];
-    const T u = sides[corner % 4 / 2].collapsed() ? T(0.5) : T(corner % 2);
-    const T v = sides[2 + corner % 2].collapsed() ? T(0.5) : T(corner % 4 / 2);
+    const bool any_u = sides[corner % 4 / 2].collapsed();
+    const bool any_v = sides[2 + corner % 2].collapsed() && !any_u;
+    const T u = any_u ? T(0.5) : T(corner % 2);
+    const T v = any_v ? T(0.5) : T(corner % 4 / 2);
     to_.parameters.put(vertex - to_.parameters_first, static_cast<std::uint32_t>(patch), u, v);
   }
   /// Those of `count` of a side's points from `k` on, in the direction of its edge.

@@ -171,8 +171,9 @@ Status quantisation_box(std::span<const ControlNets<S>> nets, VertexFormat forma
   if (format != VertexFormat::unorm16 && format != VertexFormat::snorm16) {
     return Status::bad_tolerance;
   }
-  if (detail::is_missing(nets)) {
-    return Status::null_input;
+  std::size_t patches = 0;
+  if (const Status status = detail::count_patches(nets, patches); !status) {
+    return status;
   }
   const detail::DefaultFpEnvironment environment;
   detail::PointBox points;

@@ -8,6 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <simdbezier/flatten.hpp>
+#include <simdbezier/rates.hpp>
+#include <simdbezier/topology.hpp>
+
 #include "tests/reliability/faults/counted_allocations.hpp"
 #include "tests/support/canvas.hpp"
 #include "tests/support/nets/generators.hpp"
@@ -127,6 +131,104 @@ TEST_F(Allocation, TilesComeAllOrNot) {
       ASSERT_EQ(samples, status == Status::ok ? kPatches * n * n : 0) << to_string(status);
     }
     EXPECT_GT(failed, 1);
+  }
+}
+
+/// A call that has its result, or says that memory was short, whichever of its allocations fails,
+/// and whether those behind it fail as well. Status call(result).
+template <typename Call>
+void expect_result_or_status(const Call& call) {
+  std::vector<double> expected;
+  ASSERT_EQ(call(expected), Status::ok);
+  int allocations = 0;
+  for (Status status = Status::out_of_memory; status == Status::out_of_memory; ++allocations) {
+    ASSERT_LT(allocations, 1000);
+    std::vector<double> result = expected;
+    allow_allocations(allocations);
+    status = call(result);
+    allow_allocations(-1);
+    ASSERT_TRUE(status == Status::out_of_memory || (status == Status::ok && result == expected))
+        << to_string(status) << ", " << allocations;
+  }
+  EXPECT_GT(allocations, 1) << "the call allocates nothing: the test tests nothing";
+  for (int k = 0; k < allocations; ++k) {
+    std::vector<double> result = expected;
+    allow_allocations(k, true);
+    const Status status = call(result);
+    allow_allocations(-1);
+    ASSERT_TRUE(status == Status::out_of_memory || (status == Status::ok && result == expected))
+        << to_string(status) << ", only " << k;
+  }
+}
+
+/// Two bicubic patches that are joined by snapping, a side of the second of which is a point.
+std::vector<double> snapped_values() {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 32; ++k) {
+    const auto i = static_cast<double>(k % 4);
+    const auto j = static_cast<double>(k / 4 % 4);
+    const bool second = k >= 16;
+    const double z = (i == 1 || i == 2) && (j == 1 || j == 2) ? 0.5 : 0;
+    values.insert(values.end(),
+                  {second ? 1.0001 + i / 3 : i / 3, second && i == 3 ? 0.5 : j / 3, z});
+  }
+  return values;
+}
+
+TEST(AllocationOfMeshes, is_short_in_rates_and_in_fits) {
+  const std::vector<double> values = snapped_values();
+  const auto nets = ControlNets<double>::packed(values.data(), 2, 3, 3);
+  Topology topology;
+  TopologyOptions how;
+  how.snap = 0.01;
+  ASSERT_EQ(find_topology(nets, topology, how), Status::ok);
+  ASSERT_EQ(topology.counts().snapped_sides, 2U);
+  ASSERT_EQ(topology.counts().collapsed_sides, 1U);
+  for (const int threads : {1, 2}) {
+    expect_result_or_status([&](std::vector<double>& /*result*/) {
+      return Status(fits(topology, nets, {.threads = threads}) ? Status::ok
+                                                               : Status::out_of_memory);
+    });
+    for (const bool thorough : {false, true}) {
+      SCOPED_TRACE(thorough);
+      RateOptions options;
+      options.tolerance = 0.01;
+      options.thorough = thorough;
+      expect_result_or_status([&](std::vector<double>& result) {
+        std::uint32_t nu[2] = {};
+        std::uint32_t nv[2] = {};
+        std::uint16_t diagonals[2] = {};
+        double deviations[2] = {};
+        const Report report = choose_rates(nets, topology, options, {nu, nv, diagonals, deviations},
+                                           {.threads = threads});
+        if (report) {
+          result = {deviations[0], deviations[1]};
+          result.insert(result.end(), nu, nu + 2);
+          result.insert(result.end(), nv, nv + 2);
+        }
+        return report.status;
+      });
+    }
+  }
+}
+
+TEST(AllocationOfPolylines, is_short_for_weights_that_are_far_apart) {
+  std::vector<double> values;
+  for (int k = 0; k < 5; ++k) {
+    values.insert(values.end(), {0, 0, 0, 1, 1, 1, 0, 1000, 2, 0, 0, 1});
+  }
+  const auto curves = ControlCurves<double>::packed(values.data(), 5, 2, 3, Weights::cartesian);
+  FlattenOptions options;
+  options.tolerance = 1e-3;
+  for (const int threads : {1, 2}) {
+    expect_result_or_status([&](std::vector<double>& result) {
+      std::uint32_t points[5] = {};
+      const Report report = choose_polylines(curves, options, points, {}, {.threads = threads});
+      if (report) {
+        result.assign(points, points + 5);
+      }
+      return report.status;
+    });
   }
 }
 

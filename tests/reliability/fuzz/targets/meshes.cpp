@@ -160,7 +160,8 @@ private:
   /// Pieces make up the patches that were given, each of them once.
   void judge(const MeshPlan<T>& plan, const Mesh<T>& mesh) const {
     const std::size_t patches = plan.set.size();
-    require(options_.split_edges ? plan.pieces.size() == patches : plan.pieces.empty(),
+    require(plan.pieces.empty() ? plan.splits.splits == 0
+                                : options_.split_edges && plan.pieces.size() == patches,
             "pieces of other patches");
     require(plan.splits.splits == mesh.splits.splits, "the plan's splits are others");
     std::vector<double> area(given());
@@ -170,7 +171,7 @@ private:
               "a piece is no part of its patch");
       area[piece.patch] += (piece.u1 - piece.u0) * (piece.v1 - piece.v0);
     }
-    for (std::size_t patch = 0; patch < area.size() && options_.split_edges; ++patch) {
+    for (std::size_t patch = 0; patch < area.size() && !plan.pieces.empty(); ++patch) {
       const bool left_out = area[patch] == 0 && options_.drop_repeated;
       require(left_out || std::fabs(area[patch] - 1) < 1e-5, "pieces are not all of their patch");
     }
