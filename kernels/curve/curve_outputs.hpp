@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/curve/curve_formulas.hpp"
+#include "kernels/poly/normal_lanes.hpp"
 #include "kernels/poly/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -96,9 +97,8 @@ SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
     const V bend = square_root(cross_product(tangent, jet.d2, normal));
     range.store(task.curvature, divide(bend, squared));
   }
-  // Parameters outside of the curve are as likely to find a small C' as any.
-  const V floor =
-      tangent_floor<kRational>(task.tangent_floor[range.curve], inverse_weight, squared);
+  const V floor = floor_inside(
+      x, tangent_floor<kRational>(task.tangent_floor[range.curve], inverse_weight, squared));
   if (!all_of<V>(squared > floor)) {
     resolve_lanes(task, shape, range, x, squared, floor);
   }

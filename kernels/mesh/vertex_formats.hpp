@@ -123,7 +123,7 @@ struct HalfFormat {
   SIMDBEZIER_INLINE void find(const T* const* plane, std::size_t k, Words* out, Doubt&) const {
     Words halves[kCount];
     for (std::size_t c = 0; c < kCount; ++c) {
-      halves[c] = half(widened(load_floats(plane[c] + k)));
+      halves[c] = half(load_wide(plane[c] + k));
     }
     out[0] = join<16, 0>(halves);
   }

@@ -1,15 +1,39 @@
 // See src/nets/iso_points.hpp.
 #include "src/nets/iso_points.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "src/runtime/both_types.hpp"
 #include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
 namespace {
 
-/// One patch's control points as rows of `row` values, one row for each point across.
+/// A power of two by which all weights of a patch are below 1, so that products do not overflow; 1
+/// where it has none, or points are products already.
 template <typename S>
-void read_rows(const IsoTask<S>& task, const S* net, double* rows) {
+double weight_scale(const IsoTask<S>& task, const S* net) {
+  if (task.nets.weights != Weights::cartesian) {
+    return 1;
+  }
+  const S* const weight =
+      net + static_cast<std::ptrdiff_t>(task.nets.components) * task.nets.component_stride;
+  double heaviest = 0;
+  for (int i = 0; i <= task.nets.degree_u; ++i) {
+    for (int j = 0; j <= task.nets.degree_v; ++j) {
+      const S at = weight[i * task.nets.point_stride + j * task.nets.row_stride];
+      heaviest = std::max(heaviest, static_cast<double>(at));
+    }
+  }
+  // Of the smallest weights, less is enough: powers of two above 2^1023 are none.
+  return std::ldexp(1.0, std::min(-1 - std::ilogb(heaviest), 1000));
+}
+
+/// One patch's control points as rows of `row` values, one row for each point across; weights, and
+/// what is multiplied by them, times `scale`.
+template <typename S>
+void read_rows(const IsoTask<S>& task, const S* net, double scale, double* rows) {
   const bool homogenise = task.nets.weights == Weights::cartesian;
   const auto weight_at = static_cast<std::ptrdiff_t>(task.nets.components);
   for (int i = 0; i <= task.nets.degree_u; ++i) {
@@ -18,8 +42,9 @@ void read_rows(const IsoTask<S>& task, const S* net, double* rows) {
       for (std::size_t c = 0; c < task.channels; ++c) {
         const auto at = static_cast<std::ptrdiff_t>(c);
         *rows = static_cast<double>(point[at * task.nets.component_stride]);
-        if (homogenise && at < weight_at) {
-          *rows *= static_cast<double>(point[weight_at * task.nets.component_stride]);
+        if (homogenise) {
+          const S weight = point[weight_at * task.nets.component_stride];
+          *rows = static_cast<double>(weight) * scale * (at < weight_at ? *rows : 1);
         }
         ++rows;
       }
@@ -31,7 +56,8 @@ template <typename S>
 void interpolate(const IsoTask<S>& task, std::size_t patch, double* points) {
   const std::size_t row = task.curve_values();
   double rows[kMostOrder * kMostOrder * kMostChannels];
-  read_rows(task, task.net(patch), rows);
+  const double scale = weight_scale(task, task.net(patch));
+  read_rows(task, task.net(patch), scale, rows);
   const double s = 1 - task.t;
   for (int last = task.nets.degree_u; last > 0; --last) {
     // All rows of a level lie side by side: one long loop.
@@ -44,7 +70,10 @@ void interpolate(const IsoTask<S>& task, std::size_t patch, double* points) {
   for (std::size_t k = 0; k < row; ++k) {
     const std::size_t c = k % task.channels;
     const bool weight = c + 1 == task.channels;
-    points[k] = (divides && !weight ? rows[k] / rows[k - c + task.channels - 1] : rows[k]) + 0.0;
+    points[k] = !divides ? rows[k]
+                : weight ? rows[k] / scale
+                         : rows[k] / rows[k - c + task.channels - 1];
+    points[k] += 0.0;
   }
 }
 

@@ -225,6 +225,64 @@ TEST_P(CurveTangents, AreUnitVectorsAlongTheDerivative) {
   }
 }
 
+// The square of C' overflows long before C' does.
+TEST_P(CurveTangents, FarOutsideAreUnitVectorsAlongTheDerivative) {
+  for (const int degree : {2, 3, 5, 15}) {
+    CurveBatch<float> batch{1, degree, 3, Weights::none, {}};
+    for (int i = 0; i <= degree; ++i) {
+      const auto angle = static_cast<float>(i);
+      batch.points.insert(batch.points.end(), {std::cos(angle), std::sin(2 * angle), 0.1F * angle});
+    }
+    const CurveSet<float> set = packed<float>(batch);
+    std::size_t finite = 0;
+    for (int power = 1; power < 60; ++power) {
+      const float t = std::ldexp(1.0F, power);
+      const std::uint32_t curve = 0;
+      CurveResults<float> results(1, 3);
+      evaluate(set, CurveSamples<float>{{&curve, 1}, {&t, 1}, Parameters::centred},
+               results.outputs());
+      double length = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        length = std::hypot(length, static_cast<double>(results.at(1, c, 0)));
+      }
+      if (!std::isfinite(length)) {
+        continue;
+      }
+      ++finite;
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(results.at(3, c, 0), static_cast<double>(results.at(1, c, 0)) / length, 1e-3)
+            << degree << ", 2^" << power;
+      }
+    }
+    EXPECT_GT(finite, 4U);
+  }
+}
+
+// C' = 3 (t - r) (t + 3, t - 5) vanishes outside of the curve, where its roundings are large.
+TEST_P(CurveTangents, VanishingOutsideHaveLimits) {
+  for (double r = 8388607; r > 8380000; r -= 2) {
+    const double x[] = {-3 * r, -3 * r - (r - 3) / 2, 1 - (r - 3) - 3 * r};
+    const double y[] = {5 * r, 5 * r - (r + 5) / 2, 5 * r - (r + 5) + 1};
+    CurveBatch<double> batch{1, 3, 3, Weights::none, {0, 0, 0}};
+    for (std::size_t i = 0; i < 3; ++i) { // whole numbers
+      batch.points.insert(batch.points.end(),
+                          {batch.points[3 * i] + x[i], batch.points[3 * i + 1] + y[i], 0});
+    }
+    const auto t = static_cast<float>(2 * r - 1);
+    if (static_cast<double>(t) != 2 * r - 1) {
+      continue;
+    }
+    CurveSet<float> set;
+    ASSERT_TRUE(pack(ControlCurves<double>::packed(batch.points.data(), 1, 3), set));
+    const std::uint32_t curve = 0;
+    CurveResults<float> results(1, 3);
+    evaluate(set, CurveSamples<float>{{&curve, 1}, {&t, 1}, Parameters::centred},
+             results.outputs());
+    ASSERT_EQ(results.status[0], SampleStatus::limit) << r;
+    ASSERT_NEAR(std::fabs(results.at(3, 0, 0)), kRoot, 1e-5);
+  }
+}
+
 TEST_P(CurveTangents, ParametersThatAreNotFiniteGiveNan) {
   const float t[] = {0.25F, std::numeric_limits<float>::quiet_NaN(),
                      std::numeric_limits<float>::infinity(), 0.75F};

@@ -65,6 +65,26 @@ TEST(IsoPoints, EndsAreBoundariesAndReversalIsExact) {
   EXPECT_EQ(points, mirrored);
 }
 
+// Products with weights of any size stay within range.
+TEST(IsoPoints, ScalesOfWeightsDoNotMatter) {
+  NetBatch<double> nets(3, 4, 3, 7, 6);
+  std::vector<double> expected(3 * 4 * 4);
+  ASSERT_EQ(iso_u(nets.view(), 0.3125, expected).status, Status::ok);
+  const std::vector<double> points = nets.points;
+  for (const double scale : {0x1p-600, 0x1p600}) {
+    for (const double weight : {0x1p-1020, 0x1p-600, 0x1p600, 0x1p1015}) {
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        nets.points[k] = points[k] * (k % 4 == 3 ? weight : scale);
+      }
+      std::vector<double> found(expected.size());
+      ASSERT_EQ(iso_u(nets.view(), 0.3125, found).status, Status::ok);
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        ASSERT_EQ(found[k], expected[k] * (k % 4 == 3 ? weight : scale)) << scale << ", " << weight;
+      }
+    }
+  }
+}
+
 TEST(IsoPoints, RefuseBadInput) {
   NetBatch<float> nets(3, 4, 3, 7, 6);
   std::vector<double> points(3 * 5 * 4, -777);

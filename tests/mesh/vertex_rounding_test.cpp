@@ -35,6 +35,24 @@ protected:
   }
 };
 
+/// Doubles next to a middle, which floats between them would be.
+TEST_P(VertexRoundingTest, halves_of_doubles_are_rounded_once) {
+  std::vector<double> values;
+  std::vector<std::uint32_t> expected;
+  for (std::uint32_t bits = 0; bits < 0x7bff; bits += 13) {
+    const double low = from_half(static_cast<std::uint16_t>(bits));
+    const double middle = (low + from_half(static_cast<std::uint16_t>(bits + 1))) / 2;
+    values.insert(values.end(), {std::nextafter(middle, 0.0), -std::nextafter(middle, 1e9)});
+    expected.insert(expected.end(), {bits, 0x8000 + bits + 1});
+  }
+  FormattedOutputs out;
+  out.position.format = VertexFormat::half;
+  const std::vector<unsigned char> bytes = format<double>(values, out);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    ASSERT_EQ(read<std::uint16_t>(bytes, 6 * k), expected[k]) << values[k];
+  }
+}
+
 /// Numbers that are halves, middles between two of them, and what is next to these.
 TEST_P(VertexRoundingTest, halves_are_the_nearest) {
   std::vector<double> values = {65519, 65520, 1e20, -1e20};
