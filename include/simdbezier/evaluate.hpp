@@ -20,7 +20,8 @@
 //               both sides whatever the orientation; corners are control points. (On edges near the
 //               smallest denormals, and at centred parameters below 2^-24 or 2^-53, zeros may
 //               differ in their signs.) An edge whose control points are all one is that point,
-//               whatever its weights, and derivatives along it are exactly zero.
+//               whatever its weights, and derivatives along it are exactly zero. (With local
+//               origins, a point that T cannot hold may be rounded another way in its corners.)
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.

@@ -211,7 +211,8 @@ inline constexpr std::size_t kCurvatureKinds = static_cast<std::size_t>(Curvatur
 }
 
 /// Where the curvatures of a surface go; null means not asked for. They are computed from first and
-/// second derivatives, and are nan if the status is not `regular`.
+/// second derivatives, and are nan if the status is not `regular`, or if all components of du or of
+/// dv are below the smallest normal number.
 ///
 /// They have no error bound: they divide by |du x dv|^2, and lose digits if that is small
 /// (docs/accuracy.md has figures; float is of no use closer than 0.001 to a pole). Principal
