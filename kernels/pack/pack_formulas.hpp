@@ -78,12 +78,24 @@ SIMDBEZIER_INLINE Wide packing_doubt(int degrees, double terms) {
   return Wide((kInPairs ? 0x1p-80 : 0x1p-46) * (2 * degrees + 4) * terms);
 }
 
-/// The largest differences of neighbours in the max norm, by which the plain cross product of a
-/// polynomial patch is judged.
+/// The largest differences of neighbours and one of the control points, in the max norm, by which
+/// the plain cross product of a polynomial patch is judged.
 struct DifferenceSizes {
   Wide u = Wide(0.0);
   Wide v = Wide(0.0);
+  Wide point = Wide(0.0);
 };
+
+/// The same of a patch with one cell, by its control points: none is larger than one of them and
+/// all differences on the way to it. Bicubic patches have the same doubt whichever kernel packs
+/// them.
+template <typename W>
+SIMDBEZIER_INLINE Wide packing_doubt_of(const DifferenceSizes& size, int degree_u, int degree_v) {
+  const int degrees = degree_u + degree_v;
+  const Wide most = size.point + (Wide(static_cast<double>(degree_u)) * size.u +
+                                  Wide(static_cast<double>(degree_v)) * size.v);
+  return packing_doubt<W>(degrees, static_cast<double>(1U << degrees)) * most;
+}
 
 /// Returns the value of |du x dv|^2 above which the plain cross product is good (2^-14 for float,
 /// 2^-40 for double, of what the hodographs allow), from what |du| and |dv| stay below, or above
@@ -124,18 +136,14 @@ public:
         size_.v = larger_of<Wide>(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_.v);
       }
     }
-    point_ = larger_of<Wide>(magnitude(points[0]), point_);
+    size_.point = larger_of<Wide>(magnitude(points[0]), size_.point);
   }
   SIMDBEZIER_INLINE Wide value() const {
-    // No control value is larger than one of them and all differences on the way to it.
-    const Wide three(3.0);
-    const Wide most = point_ + three * (size_.u + size_.v);
-    return normal_floor<T>(three, three, size_, packing_doubt<W>(6, 0x1p6) * most);
+    return normal_floor<T>(Wide(3.0), Wide(3.0), size_, packing_doubt_of<W>(size_, 3, 3));
   }
 
 private:
   DifferenceSizes size_;
-  Wide point_ = Wide(0.0); ///< one of the control points
 };
 
 /// Returns what a floor of rational patches or curves is made of. It is infinity, which nothing

@@ -27,7 +27,8 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
 /// <= m (D + 2 B R) / w: there w itself is known well enough.
 ///
-/// Errors of packing. Let s be the sum of all terms of a packed polynomial, at their largest. No
+/// Errors of packing: packing_doubt_of() for polynomials with one cell. Of others, which it would
+/// judge too harshly, let s be the sum of all terms of a packed polynomial, at their largest. No
 /// control value is larger, nor any coefficient of a row or a column on the way, so that both
 /// directions together leave at most (2^m + 2^n) s times the roundings of a sum (packing_doubt()).
 /// If that is e_h in h and e_w in w, they add 6 m (e_h + R e_w) / w to du: E_u is at least that in
@@ -51,6 +52,7 @@ public:
           weights_ == nullptr ? distance : larger_of<Wide>(weights_[a], weights_[b]) * distance,
           size);
     });
+    size_.point = larger_of<Wide>(magnitude(points[0]), size_.point);
     if (weights_ != nullptr) {
       add_reach(points);
     }
@@ -82,7 +84,10 @@ public:
         shape_.degree_u + shape_.degree_v,
         halves * static_cast<double>((1U << shape_.degree_u) + (1U << shape_.degree_v)));
     if (weights_ == nullptr) {
-      floors[0] = normal_floor<T>(m, n, size_, doubt * terms_);
+      const Wide packed = shape_.cells() > 1
+                              ? doubt * terms_
+                              : packing_doubt_of<W>(size_, shape_.degree_u, shape_.degree_v);
+      floors[0] = normal_floor<T>(m, n, size_, packed);
       return;
     }
     const Wide steps_u = size_.u;

@@ -133,6 +133,35 @@ TEST_P(UnevenColumns, HaveCertificatesThatHoldAndNormalsFloat) { expect_sound<fl
 TEST_P(UnevenColumns, HaveCertificatesThatHoldAndNormalsDouble) { expect_sound<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(UnevenColumns);
 
+/// Hashes of what every instruction set computes of a net, which are equal in a class.
+template <typename T>
+void expect_one_class(const Net& net) {
+  std::uint64_t known[2] = {0, 0};
+  for (const Isa isa : available_isas()) {
+    const PatchSet<T> set = packed<T>(std::span(&net, 1), {.isa = isa});
+    Planes<T> planes(kN * kN);
+    EXPECT_TRUE(evaluate(set, Grid<T>::uniform(kN, kN), planes.outputs(), {.isa = isa}));
+    std::uint64_t& hash = known[fuses_multiply_add(isa) ? 1 : 0];
+    hash = hash == 0 ? planes.hash() : hash;
+    EXPECT_EQ(planes.hash(), hash) << to_string(isa);
+  }
+}
+
+// The quick test of normals is the same everywhere, also where packing decides about it.
+TEST(UnevenColumnsBits, AreEqualInAClass) {
+  Random random(92);
+  for (const Degrees& degrees : {Degrees{3, 3}, {2, 3}, {5, 4}, {7, 6}}) {
+    for (int power = 8; power < 44; ++power) {
+      for (int weights = 0; weights < 3; ++weights) {
+        SCOPED_TRACE(std::to_string(degrees.u) + ", 2^-" + std::to_string(power));
+        const Column c{degrees, 1.1, std::ldexp(1.0, -power)};
+        expect_one_class<float>(column_net<float>(c, weights, random));
+        expect_one_class<double>(column_net<double>(c, weights, random));
+      }
+    }
+  }
+}
+
 class UnevenCurves : public CurveTest {
 protected:
   /// d0 - 3 d1 + 3 d2 - d3 and the like, in which a small d1 is lost beside the others.
