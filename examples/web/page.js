@@ -13,6 +13,7 @@ worker.addEventListener('message', ({ data: { id, error, ...answer } }) => {
   waiting.delete(id);
   error === undefined ? resolve(answer) : reject(new Error(error));
 });
+worker.addEventListener('error', ({ message }) => complain(new Error(message || 'The worker and the library could not be loaded.')));
 const ask = (what, rest = {}) => new Promise((resolve, reject) => {
   waiting.set(++asked, { resolve, reject });
   worker.postMessage({ id: asked, what, ...rest });
@@ -96,8 +97,19 @@ function show(mesh) {
   draw();
 }
 
+function showNothing() {
+  for (const part of [surface, lines]) {
+    part.geometry.dispose();
+    part.geometry = new THREE.BufferGeometry();
+  }
+  $('numbers').textContent = '';
+  last = undefined;
+  draw();
+}
+
 // Meshes. While one is made, only the last wish is kept.
-let busy = false, wanted = false, opened = false, last;
+let busy = false, wanted = false, last;
+let opened = 0, meshed = 0; // the wishes whose model, and whose mesh, are there
 const relative = () => 10 ** Number($('tolerance').value);
 async function remesh() {
   $('shown').textContent = `1/${Math.round(1 / relative())} of the diagonal`;
@@ -107,15 +119,18 @@ async function remesh() {
   busy = true;
   while (wanted) {
     wanted = false;
+    const model = opened;
     const begin = performance.now();
     try {
       const mesh = await ask('mesh', { relative: relative(), edges: $('edges').checked, colours: $('colours').checked });
       show(mesh);
+      meshed = model;
       last = { relative: mesh.relative, triangles: mesh.triangleCount, ms: performance.now() - begin };
       $('numbers').textContent = `${mesh.triangleCount} triangles, ${mesh.vertexCount} vertices\n`
         + `certified within ${mesh.deviation.toPrecision(3)}, asked for ${mesh.tolerance.toPrecision(3)}\n${last.ms.toFixed(0)} ms`;
       $('problem').hidden = true;
     } catch (error) {
+      if (meshed !== opened) showNothing(); // what was shown is of the model before
       complain(error);
     }
   }
@@ -125,19 +140,23 @@ async function remesh() {
 function complain(error) {
   $('problem').textContent = error.message;
   $('problem').hidden = false;
+  if (!opened) $('model').textContent = 'No model';
 }
 
+let wishes = 0; // for models: only the last one counts, whichever is read first
 async function open(name, file) {
+  const wish = ++wishes;
   try {
     const { size: patches, box, openEdges, ignoredTrims } = await ask('open', { name, file });
+    if (wish !== wishes) return;
     $('model').textContent = `${name}: ${patches} patches, ${openEdges} open edges`
       + (ignoredTrims > 0 ? `; ${ignoredTrims} trimmed surfaces are shown as a whole` : '');
     $('problem').hidden = true;
-    opened = true;
+    opened = wish;
     lookAt(box);
     await remesh();
   } catch (error) {
-    complain(error); // the model before stays
+    if (wish === wishes) complain(error); // the model before stays
   }
 }
 
@@ -195,5 +214,5 @@ $('view').addEventListener('keydown', (event) => {
   draw();
 });
 
-globalThis.page = { get last() { return last; }, get idle() { return opened && !busy; } }; // for tests
+globalThis.page = { get last() { return last; }, get idle() { return opened > 0 && !busy && waiting.size === 0; } }; // for tests
 open('builtin:teapot');

@@ -2,7 +2,7 @@
 import { load } from './simdbezier/browser.js';
 
 const library = load();
-let set;
+let set, wishes = 0;
 
 // From dark blue, at half of the tolerance and below, to yellow, at the tolerance. Shaders take linear values.
 const RAMP = [[38, 49, 120], [40, 110, 160], [45, 165, 140], [140, 200, 80], [250, 225, 60]];
@@ -32,7 +32,12 @@ function edgesOf(indices) {
 
 const actions = {
   async open({ name, file }) {
+    const wish = ++wishes;
     const opened = file ? await (await library).open(name, file, { ignoreTrims: true }) : (await library).read(name);
+    if (wish !== wishes) { // one that was asked for later, and took less time, is there
+      opened.free();
+      return {};
+    }
     set?.free();
     set = opened;
     const { size, box, openEdges, ignoredTrims } = set;

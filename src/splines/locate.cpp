@@ -49,9 +49,9 @@ Report find_places(const SplineSurface<S>& surface, std::size_t count, const dou
       return report;
     }
   }
-  const std::size_t patches =
-      knots[0].spans().size() * (directions == 1 ? 1 : knots[1].spans().size());
-  if (places.patch != nullptr && patches > std::size_t{1} << 32) {
+  const std::uint64_t patches =
+      std::uint64_t{knots[0].spans().size()} * (directions == 1 ? 1 : knots[1].spans().size());
+  if (places.patch != nullptr && patches > std::uint64_t{1} << 32) {
     return {Status::size_overflow}; // numbers of patches would wrap
   }
   const auto patches_u = static_cast<std::uint32_t>(knots[0].spans().size());

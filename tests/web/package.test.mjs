@@ -4,15 +4,16 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { Worker } from 'node:worker_threads';
-import { brotliCompressSync, constants } from 'node:zlib';
+import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import { instantiate, load } from 'simdbezier';
 import { load as loadCore } from 'simdbezier/core';
 import { load as loadDoubles } from 'simdbezier/f64';
@@ -23,6 +24,8 @@ const bezier = await load();
 const modules = { f32: bezier, f64: await loadDoubles() };
 const teapot = (options) => modules[options?.precision ?? 'f32'].read('builtin:teapot', undefined, options);
 const flat = [...Array(16).keys()].flatMap((k) => [k % 4, Math.floor(k / 4), 0]); // (3u, 3v, 0)
+const bez = (patches) => [patches.length, ...patches.map((points) => points.join(' '))].join('\n');
+const folderOfPackage = dirname(createRequire(import.meta.url).resolve('simdbezier/simdbezier.wasm'));
 
 const MODULES = [['simdbezier.wasm', 400], ['simdbezier-f64.wasm', 450], ['simdbezier-core.wasm', 250]];
 for (const [name, most] of MODULES) test(`${name} is small`, () => {
@@ -123,6 +126,16 @@ test('creases keep two normals', () => {
 });
 
 
+// A band of bilinear patches, turned once.
+const MOEBIUS = Array.from({ length: 8 }, (_, i) => {
+  const end = (k, sign) => {
+    const around = 2 * Math.PI * (k % 8) / 8, way = k < 8 ? sign : -sign;
+    const radius = 2 + way * 0.5 * Math.cos(around / 2);
+    return [radius * Math.cos(around), radius * Math.sin(around), way * 0.5 * Math.sin(around / 2)].map(Math.fround);
+  };
+  return [...end(i, -1), ...end(i + 1, -1), ...end(i, 1), ...end(i + 1, 1)];
+}).flat();
+
 // Each set of options in both languages.
 const OPTIONS = [
   [{ relative: 1e-2 }, ['--relative', '1e-2']],
@@ -164,6 +177,53 @@ for (const [path, options, precisions] of cases) {
   });
 }
 
+// A patch that is there already has no vertices of its own, so that blocks of them can be empty.
+const curvedAt = (x) => flat.map((value, k) => k % 3 === 0 ? value + x : k % 3 === 2 && [5, 6, 9, 10].includes((k - 2) / 3) ? 100 : value);
+const REPEATED = [
+  ['four patches', [flat, curvedAt(6), flat, curvedAt(12)], { tolerance: 0.0017 }, ['--tolerance', '0.0017']],
+  ['4098 equal patches', Array(4098).fill(flat), { grid: 2 }, ['--grid', '2']],
+];
+for (const [name, patches, wish, words] of REPEATED) {
+  test(`files of ${name}, some of which repeat others, are the program's`, () => {
+    const folder = mkdtempSync(join(tmpdir(), 'simdbezier-web-'));
+    const [model, out] = ['model.bez', 'mesh.glb'].map((file) => join(folder, file));
+    writeFileSync(model, bez(patches));
+    const file = using_(bezier.patches(patches.flat()), (set) => set.file('glb', wish));
+    if (program) {
+      execFileSync(program, ['tessellate', model, ...words, '-o', out], { env: { ...process.env, SIMDBEZIER_ISA: 'sse2' } });
+      assert.equal(md5(file), md5(readFileSync(out)));
+    }
+    assert.equal(using_(teapot(), (set) => set.size), 32); // the instance goes on
+    rmSync(folder, { recursive: true });
+  });
+}
+
+// std::hypot() of three numbers has other bits in the C++ library of the program than in that of the module.
+test('diagonals are those of the program', { skip: program ? false : 'no program to compare with' }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'simdbezier-web-'));
+  for (const size of [[4, 7, 5], [3, 30, 5], [9, 27, 28], [1e200, 2e200, 3e200], [1e-200, 7e-200, 3e-200]]) {
+    const patch = [...Array(45).fill(0), ...size];
+    writeFileSync(join(folder, 'model.bez'), bez([patch]));
+    const stats = execFileSync(program, ['tessellate', join(folder, 'model.bez'), '--precision', 'f64', '--grid', '2', '--stats=json', '-o', join(folder, 'mesh.ply')]);
+    using_(modules.f64.patches(patch, { precision: 'f64' }), (set) => assert.equal(set.diagonal, JSON.parse(stats).diagonal, size.join(' ')));
+  }
+  rmSync(folder, { recursive: true });
+});
+
+test('diagonals are roots of sums of squares', () => {
+  let seed = 1;
+  const random = () => (seed = seed * 48271 % 2147483647) / 2147483647;
+  for (const scale of [1, 2 ** 100, 2 ** -100]) {
+    for (let k = 0; k < 300; k++) {
+      using_(bezier.patches(Array.from({ length: 48 }, () => scale * 10 * random())), (set) => {
+        const { low, high } = set.box;
+        const [x, y, z] = high.map((value, c) => (value - low[c]) / scale);
+        assert.equal(set.diagonal, scale * Math.sqrt(x * x + y * y + z * z));
+      });
+    }
+  }
+});
+
 test('the core has the meshes, and no files', async () => {
   const core = (await loadCore()).read('builtin:teapot');
   using_(teapot(), (set) => assert.deepEqual(core.tessellate({ relative: 1e-3 }).vertices, set.tessellate({ relative: 1e-3 }).vertices));
@@ -197,8 +257,9 @@ test('bytes come in any buffer', async () => {
   for (const [name, source, message] of [
     ['m.bez', new Response('<html>', { status: 404 }), /m\.bez: expected an answer, found status 404/],
     ['m.bez', new Response(null), /m\.bez:1: expected .* end of the file/],
-    ['m.bez.gz', new Response(null), /m\.bez:1: expected .* end of the file/],
-    ['m.bez.gz', own, /m\.bez: expected data that can be read and unpacked/],
+    ['m.bez.gz', new Response(null), /m\.bez\.gz:1: expected .* end of the file/],
+    ['m.bez.gz', gzipSync(own).subarray(0, -12), /^Error: m\.bez\.gz: expected data that can be read and unpacked, found ./],
+    ['m.bez', new ReadableStream({ pull: (to) => to.error(new Error('no more')) }), /m\.bez: expected data .*, found no more/],
     ['m.bez', text, /m\.bez: expected bytes in a buffer, found .object String/],
     ['m.bez', 42, /expected bytes in a buffer/],
     ['m.bez', null, /expected bytes in a buffer/],
@@ -207,8 +268,41 @@ test('bytes come in any buffer', async () => {
   }
 });
 
+test('data are unpacked where they are packed, whatever their name says', async (context) => {
+  const plain = new TextEncoder().encode(bez([flat]));
+  const encoded = await serve(context, { 'content-encoding': 'gzip' }, gzipSync(plain)); // as servers do that know .gz
+  for (const source of [plain, gzipSync(plain), new Blob([gzipSync(plain)]), new Response(gzipSync(plain)),
+    fetch(encoded)]) {
+    for (const name of ['m.bez.gz', 'm.bez', 'm.BEZ.GZ'].slice(0, source instanceof Blob || ArrayBuffer.isView(source) ? 3 : 1)) {
+      using_(await bezier.open(name, source), (set) => assert.equal(set.size, 1, name));
+    }
+  }
+});
+
+test('a module comes from a path or from the text of a URL', async (context) => {
+  const path = join(folderOfPackage, 'simdbezier-core.wasm');
+  const url = import.meta.resolve('simdbezier/simdbezier-core.wasm');
+  const served = await serve(context, { 'content-type': 'application/wasm' }, readFileSync(path));
+  for (const start of [load, loadCore, loadDoubles]) {
+    for (const place of [path, url, new URL(url), served, new URL(served)]) {
+      assert.equal((await start(place)).read('builtin:teapot').size, 32);
+    }
+  }
+});
+
+test('a module comes with any type', async () => {
+  const wasm = readFileSync(join(folderOfPackage, 'simdbezier-core.wasm'));
+  for (const type of ['application/wasm', 'Application/WASM', 'application/wasm; charset=utf-8', 'application/wasm;', 'application/wasmx', 'text/plain', '']) {
+    assert.equal((await instantiate(new Response(wasm, { headers: { 'content-type': type } }))).read('builtin:teapot').size, 32, type);
+  }
+});
+
 test('errors are those of the program', () => {
   const bytes = (text) => new TextEncoder().encode(text);
+  const oneSided = () => bezier.patches(MOEBIUS, { degreeU: 1, degreeV: 1 });
+  const ONE_SIDED = '--orient: expected patches that can be turned to agree with their neighbours, found a surface of one side in patches';
+  const far = () => bezier.patches(flat.map((value) => value + 1e6));
+  const point = () => bezier.patches(flat.map((value) => 1e6 + 1e-3 * value));
   for (const [act, message] of [
     [() => bezier.read('model.bez', bytes('1\n0 0 z')), "model.bez:2: expected a finite number, found 'z'"],
     [() => bezier.read('model.xyz', bytes('1')), /^model\.xyz: expected a name that ends in \.bez/],
@@ -226,6 +320,14 @@ test('errors are those of the program', () => {
     [() => teapot().tessellate({}), /expected either a grid or some of tolerance/],
     [() => teapot().tessellate({ relative: -1 }), /relative: expected a finite number/],
     [() => teapot().tessellate({ tolerance: Infinity }), /tolerance: expected a finite number, .*found Infinity/],
+    [() => teapot().tessellate({ grid: 4098 }), 'simdbezier: grid: expected an integer, 2 or more and at most 4097, found 4098'],
+    [() => teapot().tessellate({ grid: [2, 4098], weld: false }), /grid: .*at most 4097, found 4098/],
+    [() => teapot().file('glb', { grid: 70000 }), /grid: .*at most 4097, found 70000/],
+    [() => oneSided().tessellate({ grid: 2, orient: true }), ONE_SIDED],
+    [() => oneSided().file('glb', { grid: 2, orient: true }), ONE_SIDED],
+    [() => far().tessellate({ tolerance: 0.01 }), /^--tolerance: expected a distance above the error of rounding, [\d.]+, found 0\.01 /],
+    [() => far().file('glb', { tolerance: 0.01 }), /^--tolerance: expected a distance above the error of rounding, [\d.]+, found 0\.01 /],
+    [() => point().file('glb', { grid: 2 }), /expected a model that numbers of --precision do not make one point, found one of size [\d.e-]+$/],
     [() => teapot().tessellate({ grid: [2] }), /grid: expected an integer, .*found undefined/],
     [() => teapot().tessellate({ grid: null }), /grid: expected an integer, .*found null/],
     [() => teapot().tessellate({ relative: 1e-12 }), /--relative: expected /],
@@ -243,6 +345,8 @@ test('errors are those of the program', () => {
     [() => teapot().tessellate(null), 'simdbezier: expected options in an object, found null'],
     [() => teapot().grid(3, 3, 'normal'), 'simdbezier: expected options in an object, found normal'],
     [() => teapot().grid(3, 3, { outputs: 7 }), /outputs: expected one of position, .*found 7/],
+    [() => teapot().grid(3, 3, { outputs: ['status'] }), 'simdbezier: outputs: expected one besides status at least, found status alone'],
+    [() => teapot().samples([0], [0], [0], { outputs: [] }), 'simdbezier: outputs: expected one besides status at least, found none'],
     [() => bezier.read('builtin:teapot', undefined, null), 'simdbezier: expected options in an object, found null'],
     [() => bezier.patches(flat, 3), 'simdbezier: expected options in an object, found 3'],
     [() => bezier.patches(undefined), /points: expected a multiple of 48 values, found undefined/],
@@ -330,6 +434,49 @@ test('results can be what the next call takes', async () => {
   }
 });
 
+test('values may make the memory grow while they are read', async () => {
+  for (const use of [(own, set, values) => own.patches(values).box.high,
+    (own, set, values) => [...set.samples(values.map(() => 0), values, values).position],
+    (own, set, values) => [...set.samples(values, values, values).position]]) {
+    const [first, expected] = [await load(), await load()].map((own, again) => {
+      const set = own.patches([...flat, ...flat, ...flat, ...flat]);
+      const values = flat.map((value) => value); // which are numbers of its patches, too
+      if (!again) {
+        Object.defineProperty(values, 40, { get: () => (own.patches(flat).grid(1500), flat[40]) });
+      }
+      const pages = own.memoryBytes;
+      const results = use(own, set, values);
+      assert.equal(own.memoryBytes > pages, !again);
+      return results;
+    });
+    assert.deepEqual(first, expected);
+  }
+});
+
+test('an instance that has trapped says so', async () => {
+  const own = await load();
+  const set = own.read('builtin:teapot');
+  const other = own.read('builtin:teapot');
+  new Uint8Array(set.grid(2).position.buffer).fill(255); // all of its memory
+  const failed = { message: /^simdbezier: expected an instance that works, found one that has failed \(.+\): load another one$/ };
+  for (const act of [() => set.grid(2), () => set.grid(2), () => other.tessellate({ grid: 2 }), () => other.file('glb', { grid: 2 }),
+    () => own.read('builtin:teapot'), () => own.patches(flat)]) {
+    assert.throws(act, (error) => failed.message.test(error.message) && error.cause instanceof WebAssembly.RuntimeError);
+  }
+  set.free(); // which hides no error
+  other.free();
+  using_((await load()).read('builtin:teapot'), (set) => assert.equal(set.size, 32));
+});
+
+test('arrays of the example in README.md stay', async () => {
+  const [, code] = readFileSync(join(folderOfPackage, 'README.md'), 'utf8').match(/```js\n([^]*?)```/);
+  writeFileSync('readme.mjs', code.replace(/await bezier\.open\(.*\);/, "bezier.read('builtin:teapot');")
+    .replace('set.free();', 'export { vertices, indices, position, normal };'));
+  const arrays = await import(join(process.cwd(), 'readme.mjs'));
+  for (const [name, array] of Object.entries(arrays)) assert.ok(array.length > 0, name);
+  rmSync('readme.mjs');
+});
+
 test('memory does not grow over many meshes', async () => {
   const own = await loadDoubles();
   const round = (k) => {
@@ -360,9 +507,9 @@ test('a worker takes the compiled module', async () => {
 });
 
 test('tsc --strict accepts an example, and refuses a wrong one', () => {
-  const check = (text) => {
+  const check = (text, ...libraries) => {
     writeFileSync('example.ts', text);
-    return execFileSync('node_modules/.bin/tsc', ['--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom,esnext.disposable', '--types', '', 'example.ts'], { encoding: 'utf8' });
+    return execFileSync('node_modules/.bin/tsc', ['--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', ...libraries, '--types', '', 'example.ts'], { encoding: 'utf8' });
   };
   const good = `import { load, type PatchSet } from 'simdbezier';
     const bezier = await load();
@@ -372,7 +519,8 @@ test('tsc --strict accepts an example, and refuses a wrong one', () => {
     const file: Uint8Array<ArrayBuffer> = set.file('glb', { relative: 1e-3 });
     const samples = set.grid(16, 16, { outputs: ['position', 'normal'], layout: 'interleaved' });
     export { numbers, file, samples };`;
-  check(good);
+  check(good, '--lib', 'es2022,dom,esnext.disposable');
+  check(good); // with the libraries of the target
   assert.throws(() => check(good.replace('relative:', 'relativ:')));
   rmSync('example.ts');
 });
@@ -400,6 +548,14 @@ test('vite bundles it, with the module', () => {
   assert.equal(files.length, 1);
   assert.equal(statSync(files[0]).size, statSync(createRequire(import.meta.url).resolve('simdbezier/simdbezier.wasm')).size);
 });
+
+/** Answers every request as long as the test runs. Returns the address. */
+async function serve(context, headers, bytes) {
+  const server = createServer((request, response) => response.writeHead(200, headers).end(bytes)).listen(0, '127.0.0.1');
+  context.after(() => server.close());
+  await new Promise((resolve) => server.once('listening', resolve));
+  return `http://127.0.0.1:${server.address().port}/`;
+}
 
 function using_(set, use) {
   try {

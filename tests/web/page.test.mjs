@@ -1,7 +1,7 @@
 // The page of examples/web and the bits of the module, in Debian's Chromium. Skipped where that is not installed.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -13,10 +13,13 @@ const skip = CHROMIUM ? false : 'chromium is not installed';
 const downloads = mkdtempSync(join(tmpdir(), 'simdbezier-downloads-'));
 let server, address, browser;
 
+async function serve(folder) {
+  const server = spawn(process.execPath, [join(source, 'web/serve.mjs'), folder, '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  return [server, await new Promise((resolve) => server.stdout.once('data', (text) => resolve(String(text).trim())))];
+}
 before(async () => {
   if (skip) return;
-  server = spawn(process.execPath, [join(source, 'web/serve.mjs'), '../site', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
-  address = await new Promise((resolve) => server.stdout.once('data', (text) => resolve(String(text).trim())));
+  [server, address] = await serve('../site');
   browser = await Chromium.start();
 });
 after(async () => {
@@ -77,6 +80,39 @@ test('dropped files are shown, and broken ones are a message', { skip }, async (
   await look('broken.png');
 });
 
+const bez = (x) => ['1', ...Array.from({ length: 16 }, (_, k) => `${x + k % 4} ${x + Math.floor(k / 4)} ${k % 3}`)].join('\n');
+
+test('the file that was dropped last is shown, however long others take', { skip }, async () => {
+  for (const slow of [bez(5), '1']) { // a model, and a broken one
+    await browser.evaluate(`(() => {
+      const drop = (name, ...parts) => {
+        const data = new DataTransfer();
+        data.items.add(new File(parts, name));
+        dispatchEvent(new DragEvent('drop', { cancelable: true, dataTransfer: data }));
+      };
+      drop('slow.bez', ${JSON.stringify(slow)}, ' '.repeat(5e7));
+      drop('last.bez', ${JSON.stringify(bez(0))});
+    })()`);
+    await settled();
+    assert.match(await text('model'), /^last\.bez: 1 patches/);
+    assert.equal(await browser.evaluate(`document.getElementById('problem').hidden`), true);
+    assert.match(await text('numbers'), new RegExp(`^${await browser.evaluate('page.last.triangles')} triangles`));
+  }
+});
+
+test('a model without a mesh does not show that of the model before', { skip }, async () => {
+  await drop('far.bez', bez(1e9));
+  await browser.until(`document.getElementById('model').textContent.startsWith('far')`);
+  await settled();
+  assert.match(await text('problem'), /^--relative: expected a distance above the error of rounding/);
+  assert.equal(await text('numbers'), '');
+  assert.equal(await browser.evaluate('page.last === undefined'), true);
+  await drop('near.bez', bez(0));
+  await browser.until(`document.getElementById('model').textContent.startsWith('near')`);
+  await settled();
+  assert.match(await text('numbers'), /^\d+ triangles/);
+});
+
 test('a downloaded GLB is valid', { skip }, async () => {
   await browser.call('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: downloads });
   await browser.evaluate(`document.getElementById('teapot').click()`);
@@ -121,3 +157,21 @@ test('bits in the browser are those of Node', { skip }, async () => {
 });
 
 test('nothing was written to the console', { skip }, () => assert.deepEqual(browser.messages, []));
+
+for (const missing of ['worker.js', 'simdbezier/library.js', 'simdbezier/simdbezier.wasm']) {
+  test(`without ${missing}, the page says so`, { skip }, async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'simdbezier-site-'));
+    cpSync('../site', folder, { recursive: true });
+    rmSync(join(folder, missing));
+    const [other, there] = await serve(folder);
+    try {
+      await browser.call('Page.navigate', { url: there });
+      await browser.until(`document.getElementById('problem')?.hidden === false`, 10);
+      assert.match(await text('problem'), /could not be loaded|expected an answer, found status 404/);
+      assert.equal(await text('model'), 'No model');
+    } finally {
+      other.kill();
+      rmSync(folder, { recursive: true });
+    }
+  });
+}

@@ -18,7 +18,7 @@ GridMesh<T>::GridMesh(const ModelPart& part, const Arguments& arguments, MeshSta
     : arguments_(arguments), patches_(part.file.count), first_patch_(part.first_patch()),
       numbered_(part.patches), grid_(arguments.grid), box_(part.box),
       evaluator_(part.file, arguments.grid, arguments.threads) {
-  expect_no_point<T>(box_, part.file.name);
+  expect_no_point<T>(box_, part.file.name, arguments.mesh.can_move);
   const MeshContents mesh = contents();
   stats.patches = patches_;
   stats.vertices = stats.samples = mesh.vertices;

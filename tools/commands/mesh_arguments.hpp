@@ -33,7 +33,8 @@ struct MeshArguments {
   double point_size = 0;
   bool own_origin = false; ///< the file's middle becomes the origin
   std::optional<std::array<double, 3>> origin;
-  bool floats = false; ///< see MeshContents
+  bool can_move = true; ///< whether there is an --origin that messages can advise
+  bool floats = false;  ///< see MeshContents
   bool split_edges = false;
   std::optional<double> crease; ///< in degrees
   StatsForm stats = StatsForm::none;

@@ -41,7 +41,7 @@ void WeldedMesh<T>::plan(ModelPart& part) {
   std::vector<double> errors;
   {
     const Stopwatch watch(stats_.seconds.pack);
-    expect_no_point<T>(box_, name_);
+    expect_no_point<T>(box_, name_, arguments_.mesh.can_move);
     errors = point_errors<T>(part.file); // a patch that T cannot hold is named by its place
     nets = part.file.template nets<T>();
     if (!nets.in_file) {
@@ -49,7 +49,8 @@ void WeldedMesh<T>::plan(ModelPart& part) {
     }
   }
   stats_.diagonal = diagonal_of(box_);
-  const PlannedModel model{name_, stats_.diagonal, is_far(box_), numbers_};
+  const bool far = arguments_.mesh.can_move && is_far(box_);
+  const PlannedModel model{name_, stats_.diagonal, far, numbers_};
   MeshOptions options = mesh_options(arguments_, model);
   options.rates.errors = errors;
   plan_ = plan_mesh<T>(views(nets), options);

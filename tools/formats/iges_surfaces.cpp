@@ -15,6 +15,7 @@
 #include <tools/formats/roundings.hpp>
 #include <tools/process/counts.hpp>
 #include <tools/process/failure.hpp>
+#include <tools/process/length.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -23,8 +24,6 @@ namespace {
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 constexpr double kSmallest = 0x1p-1066; // more than what underflows in some dozen operations
-
-double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 
 /// Reads numbers that do not fall; they have to rise where `step` says so.
 std::vector<double> ascending(IgesParameters& parameters, std::size_t count, const char* what,
@@ -133,7 +132,7 @@ Piece control_points(const Piece& coefficients, const std::array<double, 2>& len
         }
       }
     }
-    error = std::max(error, 32 * kUnit * length(magnitudes) + kSmallest);
+    error = std::max(error, 32 * kUnit * length_of(magnitudes) + kSmallest);
   }
   return points;
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include <tools/process/length.hpp>
+
 namespace simdbezier::tools {
 
 namespace {
@@ -55,7 +57,7 @@ double multiply(std::vector<double>& values) {
       rounded[c] = std::fma(values[k + c], values[k + 3], -product);
       values[k + c] = product;
     }
-    error = std::max(error, std::hypot(rounded[0], rounded[1], rounded[2]) + 0x1p-1070);
+    error = std::max(error, length_of(rounded) + 0x1p-1070);
   }
   return error;
 }

@@ -7,6 +7,7 @@
 #include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/mesh_files/vertex_records.hpp>
 #include <tools/process/failure.hpp>
+#include <tools/process/length.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -106,7 +107,7 @@ std::string mesh_format_names(const std::string& prefix, bool MeshAbilities::*ab
 }
 
 double diagonal_of(const MeshBox& box) {
-  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+  return length_of({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
 }
 
 double largest_coordinate(const MeshBox& box) {

@@ -20,9 +20,10 @@ namespace simdbezier::tools {
 /// Returns whether an origin inside of the box would at least halve the largest coordinate.
 [[nodiscard]] bool is_far(const MeshBox& box);
 
-/// Throws Failure that names --origin if numbers of T make one point of a model that is none.
+/// Throws Failure if numbers of T make one point of a model that is none. It advises --origin where
+/// that can help and `can_move` says that there is one.
 template <typename T>
-void expect_no_point(const MeshBox& box, const std::string& name) {
+void expect_no_point(const MeshBox& box, const std::string& name, bool can_move) {
   const auto is_one = [&](std::size_t c) {
     return static_cast<T>(box.low[c]) == static_cast<T>(box.high[c]);
   };
@@ -32,7 +33,7 @@ void expect_no_point(const MeshBox& box, const std::string& name) {
               ": expected a model that numbers of --precision do not make one point, found "
               "one of size " +
               shortest(diagonal_of(box)) +
-              (is_far(box) ? " far from the origin (--origin auto moves it)" : ""));
+              (can_move && is_far(box) ? " far from the origin (--origin auto moves it)" : ""));
   }
 }
 

@@ -1,3 +1,5 @@
+/// <reference lib="esnext.disposable" />
+
 /** Weights of control points: none (x y z), Cartesian (x y z w) or homogeneous (wx wy wz w). */
 export type Weights = 'none' | 'cartesian' | 'homogeneous';
 export type Precision = 'f32' | 'f64';
@@ -27,7 +29,7 @@ export interface MeshOptions {
   relative?: number;
   /** The largest angle between normals of neighbouring vertices, in degrees. */
   angle?: number;
-  /** So many samples a patch in each direction, or [in u, in v]. */
+  /** So many samples a patch in each direction, or [in u, in v]: 2 to 4097. */
   grid?: number | [number, number];
   /** false: patches share no vertices. true by default. */
   weld?: boolean;
@@ -54,7 +56,7 @@ export interface FileOptions extends MeshOptions {
 }
 
 export interface SampleOptions {
-  /** ['position'] by default. */
+  /** ['position'] by default. 'status' needs another one beside it. */
   outputs?: readonly Output[];
   /** Vectors as x y z after each other, all x before all y, or all outputs of a sample in one record. */
   layout?: 'triples' | 'planes' | 'interleaved';
@@ -88,7 +90,8 @@ export interface MeshCopy {
  * A mesh in the memory of the instance. Each of its arrays is a view that is made when it is asked for. The mesh stays
  * until the next tessellate() or free() of its set; asking for an array later throws. A view that somebody has
  * kept is detached (its length is 0) once any call has made the memory grow: ask for it again, or copy(). A set is not
- * released by the garbage collector as long as somebody has such a view.
+ * released by the garbage collector as long as somebody has such a view. That counts for the array itself, and not for
+ * its subarray(), iterators, or other views of its buffer: keep the array or the set beside those.
  */
 export type Mesh = MeshCopy;
 
@@ -138,6 +141,10 @@ export interface PatchSet {
 
 export type Source = Blob | Response | ReadableStream<Uint8Array> | ArrayBufferLike | ArrayBufferView;
 
+/**
+ * One instance. A call that fails throws, and the instance goes on. Only if its code has trapped, which is a fault of
+ * the package, every later call fails and says so: load another instance.
+ */
 export interface Simdbezier {
   /** The compiled code, to be sent to workers: instantiate(module) compiles nothing there. */
   readonly module: WebAssembly.Module;
@@ -146,13 +153,13 @@ export interface Simdbezier {
   /** Reads a file's bytes; its name's extension says the format. 'builtin:teapot' needs no bytes.
    *  Errors have the place: "model.bez:3: expected a finite number, found 'z'". */
   read(name: string, bytes?: ArrayBufferLike | ArrayBufferView, options?: ReadOptions): PatchSet;
-  /** The same for files, answers of fetch() and streams, which are unpacked where the name ends in .gz. */
+  /** The same for files, answers of fetch() and streams, which are unpacked where their bytes are those of gzip. */
   open(name: string, source: Source | Promise<Source>, options?: ReadOptions): Promise<PatchSet>;
   /** The control points of all patches, u fastest, patch after patch. */
   patches(points: ArrayLike<number>, options?: PatchOptions): PatchSet;
 }
 
-/** Loads simdbezier.wasm from beside the package, or from elsewhere. */
+/** Loads simdbezier.wasm from beside the package, or from a URL; in Node also from a path. */
 export function load(url?: string | URL): Promise<Simdbezier>;
 /** For those who have the bytes, a compiled module or an answer already. */
 export function instantiate(source: BufferSource | WebAssembly.Module | Response | Promise<Response>): Promise<Simdbezier>;

@@ -11,8 +11,10 @@ const READ_OPTIONS = ['precision', 'ignoreTrims'];
 const PATCH_OPTIONS = ['degreeU', 'degreeV', 'weights', 'precision'];
 const SAMPLE_OPTIONS = ['outputs', 'layout', 'watertight', 'copy'];
 const LINES = { least: 2, most: 2 ** 20, whole: true }; // of a grid
+const CELLS = { least: 2, most: 4097, whole: true }; // of a mesh, whose patches have 4096 cells a direction at most
 const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
 const VECTORS = OUTPUTS.slice(0, OUTPUTS.indexOf('curvature'));
+const STATUS = 1 << OUTPUTS.indexOf('status');
 const WISHES = []; // by bits: names of outputs, and those of them that are vectors
 const CURVATURES = ['gaussian', 'mean', 'minimum', 'maximum'];
 const ARRAYS = [...VECTORS, 'records', ...CURVATURES, 'status'];
@@ -94,18 +96,39 @@ export async function instantiate(source) {
   if (response && !source.ok) fail(`${source.url}: expected an answer, found status ${source.status}`);
   try {
     if (!(module instanceof WebAssembly.Module)) {
-      // A server that names another type is refused by compileStreaming().
-      const streams = response && (source.headers.get('content-type') ?? '').startsWith('application/wasm');
+      // compileStreaming() refuses every other type, and this one with parameters; Node also with other letters.
+      const streams = response && source.headers.get('content-type') === 'application/wasm';
       module = streams ? await WebAssembly.compileStreaming(source)
         : await WebAssembly.compile(response ? await source.arrayBuffer() : source);
     }
     const wasm = (await WebAssembly.instantiate(module, imports)).exports;
     if (!wasm.read_model) throw new Error('found another one');
     wasm._initialize();
-    return new Simdbezier(wasm, module);
+    return new Simdbezier(guarded(wasm), module);
   } catch (error) {
     throw new Error(`simdbezier: expected a module of this package that can be started: ${error.message}`, { cause: error });
   }
+}
+
+/**
+ * Returns the exports with functions that do nothing more once one of them has thrown. That is a trap, which leaves
+ * the memory as it was at some point in the middle of the call.
+ */
+function guarded(exports) {
+  let trap;
+  const guard = (name, call) => (...values) => {
+    if (trap === undefined) {
+      try {
+        return call(...values);
+      } catch (error) {
+        trap = error;
+      }
+    }
+    // These follow what has failed, whose error is the one to be seen.
+    if (name === 'release' || name === 'free_model') return undefined;
+    throw new Error(`simdbezier: expected an instance that works, found one that has failed (${trap.message}): load another one`, { cause: trap });
+  };
+  return Object.fromEntries(Object.entries(exports).map(([name, value]) => [name, typeof value === 'function' ? guard(name, value) : value]));
 }
 
 /** One instance: its memory, and what is made in it. */
@@ -123,7 +146,7 @@ class Simdbezier {
     const { precision = 'f32', ignoreTrims = false } = options;
     const flags = choice('precision', precision, PRECISIONS) + (ignoreTrims ? 2 : 0);
     const text = new TextEncoder().encode(name);
-    const data = lasting(this.#wasm, bytesOf(name, bytes));
+    const data = lasting(this.#wasm, bytesOf(name, bytes), Uint8Array);
     return this.#made(text.length + data.length, flags, (at, heap) => {
       heap.set(data, at);
       heap.set(text, at + data.length);
@@ -135,15 +158,16 @@ class Simdbezier {
     source = await source;
     if (source instanceof Response && !source.ok) fail(`${name}: expected an answer, found status ${source.status}`);
     if (![Response, Blob, ReadableStream].some((type) => source instanceof type)) source = bytesOf(name, source).slice();
-    const packed = /\.gz$/i.test(name);
-    if (packed) name = name.slice(0, -3);
+    const taken = async (answer) => new Uint8Array(await answer.arrayBuffer());
     let bytes;
     try {
-      let answer = source instanceof Response ? source : new Response(source);
-      if (packed) answer = new Response(answer.body?.pipeThrough(new DecompressionStream('gzip')));
-      bytes = new Uint8Array(await answer.arrayBuffer());
+      bytes = await taken(source instanceof Response ? source : new Response(source));
+      // The name says nothing: fetch() has unpacked what a server sent as packed.
+      if (bytes[0] === 0x1f && bytes[1] === 0x8b) {
+        bytes = await taken(new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))));
+      }
     } catch (error) {
-      throw new Error(`${name}: expected data that can be read and unpacked`, { cause: error });
+      throw new Error(`${name}: expected data that can be read and unpacked, found ${error.message}`, { cause: error });
     }
     return this.read(name, bytes, options);
   }
@@ -159,7 +183,7 @@ class Simdbezier {
     if (!points?.length || points.length % each !== 0) {
       fail(`points: expected a multiple of ${each} values, found ${points?.length}`);
     }
-    points = lasting(this.#wasm, points);
+    points = lasting(this.#wasm, points, Float64Array);
     return this.#made(8 * points.length, flags, (at) => {
       new Float64Array(this.#wasm.memory.buffer, at, points.length).set(points);
       return this.#wasm.make_model(at, points.length / each, degreeU, degreeV, form, flags);
@@ -173,8 +197,17 @@ class Simdbezier {
   }
 }
 
-/** Values that stay when the instance's memory grows, which would detach its own results. */
-const lasting = (wasm, values) => values.buffer === wasm.memory.buffer ? values.slice() : values;
+/**
+ * Returns values that stay when the instance's memory grows, which would detach its own results. Reading others than
+ * those of a view may run somebody's code, which makes the memory grow: they become Values, before memory is lent.
+ */
+function lasting(wasm, values, Values) {
+  if (ArrayBuffer.isView(values)) return values.buffer === wasm.memory.buffer ? values.slice() : values;
+  if (values.length >= 2 ** 32 / Values.BYTES_PER_ELEMENT) fail('not enough memory');
+  const own = new Values(values.length);
+  own.set(values);
+  return own;
+}
 
 /** Lends memory of the instance to use(address, bytes of all of it). */
 function withMemory(wasm, bytes, use) {
@@ -247,16 +280,18 @@ class PatchSet {
     if (u?.length !== count || v?.length !== count) {
       fail(`expected as many u and v as patches, found ${count} patches, ${u?.length} u and ${v?.length} v`);
     }
-    [patches, u, v] = [patches, u, v].map((values) => lasting(this.#wasm, values));
     const Values = this.#doubles ? Float64Array : Float32Array;
+    [u, v] = [u, v].map((values) => lasting(this.#wasm, values, Values));
+    const whole = lasting(this.#wasm, patches, Uint32Array);
+    if (!ArrayBuffer.isView(patches)) expectEqual(whole, patches);
     const each = Values.BYTES_PER_ELEMENT;
     return this.#evaluated(options, (...how) => withMemory(this.#wasm, (4 + 2 * each) * count, (at) => {
       const buffer = this.#wasm.memory.buffer;
       new Values(buffer, at, count).set(u);
       new Values(buffer, at + each * count, count).set(v);
       const numbers = new Uint32Array(buffer, at + 2 * each * count, count);
-      numbers.set(patches);
-      if (!(patches instanceof Uint32Array)) expectEqual(numbers, patches);
+      numbers.set(whole);
+      if (!(whole instanceof Uint32Array)) expectEqual(numbers, whole);
       return this.#wasm.samples(this.#use(), at + 2 * each * count, at, at + each * count, count, ...how);
     }));
   }
@@ -290,7 +325,7 @@ class PatchSet {
     const wish = { ...options, normals, crease: weld ? crease : 0 };
     if (grid !== undefined) {
       [wish.nu, wish.nv] = grid?.[Symbol.iterator] ? grid : [grid, grid];
-      for (const name of ['nu', 'nv']) number('grid', wish[name], { least: 2, most: 2 ** 16 + 1, whole: true });
+      for (const name of ['nu', 'nv']) number('grid', wish[name], CELLS);
     }
     for (const [name, least, most] of [['tolerance', Number.MIN_VALUE], ['relative', Number.MIN_VALUE],
       ['angle', Number.MIN_VALUE, 180], ['crease', 0, 180], ['snap', 0]]) {
@@ -317,6 +352,7 @@ class PatchSet {
     const { outputs = ['position'], layout = 'triples', watertight = true, copy = false } = options;
     let bits = 0;
     for (const name of outputs?.[Symbol.iterator] ? outputs : [outputs]) bits |= 1 << choice('outputs', name, OUTPUTS);
+    if ((bits & ~STATUS) === 0) fail(`outputs: expected one besides status at least, found ${bits === 0 ? 'none' : 'status alone'}`);
     this.#call.samples++;
     this.#expect(call(bits, choice('layout', layout, LAYOUTS), watertight ? 1 : 0));
     const samples = new SampleArrays(this.#views('samples'), new SampleResults(this.#results()), wishOf(bits), layout);

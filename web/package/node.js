@@ -1,4 +1,4 @@
-import { readFile } from 'node:fs/promises';
 import { instantiate } from './library.js';
+import { sourceAt } from './node-source.js';
 export { instantiate };
-export const load = async (url = new URL('./simdbezier.wasm', import.meta.url)) => instantiate(await readFile(url));
+export const load = async (url = new URL('./simdbezier.wasm', import.meta.url)) => instantiate(await sourceAt(url));

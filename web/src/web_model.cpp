@@ -30,6 +30,7 @@ tools::Arguments arguments_of(const MeshWish& wish, tools::MeshFormat format) {
   tools::Arguments arguments;
   tools::MeshArguments& mesh = arguments.mesh;
   mesh.format = format;
+  mesh.can_move = false;
   mesh.tolerance = said(wish.tolerance);
   mesh.relative = said(wish.relative);
   mesh.angle = said(wish.angle);
@@ -97,7 +98,10 @@ public:
 
 private:
   [[nodiscard]] std::span<const ControlNets<T>> nets() const { return nets_.nets; }
-  void join(const tools::MeshArguments& mesh);
+  [[nodiscard]] tools::PlannedModel planned_model() const {
+    return {file_.name, results_.diagonal, false, {}}; // nothing in the package moves it
+  }
+  void join(const tools::Arguments& arguments);
   void lay_out(const tools::Arguments& arguments);
   void evaluate_vertices(const tools::MeshArguments& mesh);
   void number_triangles();
@@ -133,11 +137,13 @@ TypedModel<T>::TypedModel(tools::PatchFile file)
 
 /// Finds which edges patches share, unless that is known.
 template <typename T>
-void TypedModel<T>::join(const tools::MeshArguments& mesh) {
+void TypedModel<T>::join(const tools::Arguments& arguments) {
+  const tools::MeshArguments& mesh = arguments.mesh;
   const TopologyOptions how{.orient = mesh.orient, .flip = mesh.flip, .snap = mesh.snap};
   if (plan_.topology.data() == nullptr || how.orient != joined_.orient ||
       how.flip != joined_.flip || how.snap != joined_.snap) {
-    check(find_topology(nets(), plan_.topology, how));
+    const Report report{find_topology(nets(), plan_.topology, how)};
+    tools::check_plan(report, {}, arguments, planned_model(), 0);
     joined_ = how;
   }
   const TopologyCounts counts = plan_.topology.counts();
@@ -148,7 +154,7 @@ void TypedModel<T>::join(const tools::MeshArguments& mesh) {
 
 template <typename T>
 void TypedModel<T>::lay_out(const tools::Arguments& arguments) {
-  const tools::PlannedModel model{file_.name, results_.diagonal, tools::is_far(box_), {}};
+  const tools::PlannedModel model = planned_model();
   static_cast<void>(plan_again(nets(), tools::mesh_options(arguments, model), plan_));
   tools::check_plan(plan_.report, plan_.fault, arguments, model, 0);
   first_triangles_.resize(file_.count + 1);
@@ -203,7 +209,7 @@ void TypedModel<T>::number_triangles() {
 template <typename T>
 void TypedModel<T>::tessellate(const MeshWish& wish) {
   const tools::Arguments arguments = arguments_of(wish, tools::MeshFormat::ply);
-  join(arguments.mesh);
+  join(arguments);
   lay_out(arguments);
   evaluate_vertices(arguments.mesh);
   number_triangles();
