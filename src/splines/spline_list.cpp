@@ -35,8 +35,9 @@ Report inspect(PreparedSpline<S>& spline, Weights to) noexcept {
         const S value = point[static_cast<std::ptrdiff_t>(c) * surface.component_stride];
         const bool is_weight = c == components;
         const auto number = static_cast<std::ptrdiff_t>(row * surface.columns + column);
-        const bool too_light = !(value > 0) || static_cast<double>(value) < kLeastWeight<S>;
-        if (!std::isfinite(value) || (is_weight && too_light)) {
+        const bool too_light =
+            is_weight && !(value > 0 && static_cast<double>(value) >= kLeastWeight<S>);
+        if (!std::isfinite(value) || too_light) {
           return {is_weight ? Status::bad_weight : Status::non_finite_input, 0, number,
                   static_cast<int>(c)};
         }
