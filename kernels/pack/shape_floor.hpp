@@ -59,6 +59,9 @@ public:
   }
   /// Adds the coefficients of a cell, [l][k], of a component or of the weight.
   void add_terms(const W* values, bool is_weight = false) {
+    if (!in_space_ || (weights_ == nullptr && shape_.cells() == 1)) {
+      return; // nothing asks for them
+    }
     Wide sum(0.0);
     for (std::size_t l = order_v_; l-- > 0;) {
       Wide row(0.0);
