@@ -86,9 +86,9 @@ struct DifferenceSizes {
   Wide point = Wide(0.0);
 };
 
-/// The same of a patch with one cell, by its control points: none is larger than one of them and
-/// all differences on the way to it. Bicubic patches have the same doubt whichever kernel packs
-/// them.
+/// packing_doubt() times the largest control value of a patch with one cell: none is larger than
+/// one of them and all differences on the way to it. Bicubic patches have the same doubt, whichever
+/// kernel packs them.
 template <typename W>
 SIMDBEZIER_INLINE Wide packing_doubt_of(const DifferenceSizes& size, int degree_u, int degree_v) {
   const int degrees = degree_u + degree_v;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 
 #include <simdbezier/mesh_layout.hpp>
@@ -139,10 +140,11 @@ private:
   }
 
   Report cut_alike(std::span<const SplineSurface<S>> surfaces, const RunOptions& how) {
-    std::size_t patches = 0;
+    std::vector<std::size_t> counts;
     for (const SplineSurface<S>& surface : surfaces) {
-      patches += spans_of(surface).patches(); // none where it is refused
+      counts.push_back(spans_of(surface).patches()); // none where it is refused
     }
+    const std::size_t patches = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     const SplineSurface<S>& like = surfaces.front();
     MutableNets<S> out = MutableNets<S>::packed(
         nullptr, patches, like.degree_u, like.degree_v, 3,
@@ -154,8 +156,8 @@ private:
       return report;
     }
     nets_.push_back(out);
-    for (const SplineSurface<S>& surface : surfaces) {
-      errors_.insert(errors_.end(), spans_of(surface).patches(), extraction_error(surface));
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      errors_.insert(errors_.end(), counts[k], extraction_error(surfaces[k]));
     }
     return {};
   }

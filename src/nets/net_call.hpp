@@ -66,9 +66,7 @@ Status count_patches(std::span<const ControlNets<S>> nets, std::size_t& patches)
 template <typename S>
 std::size_t patches_of(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patches = 0;
-  for (const ControlNets<S>& view : nets) {
-    patches += view.count;
-  }
+  static_cast<void>(count_patches(nets, patches));
   return patches;
 }
 
