@@ -126,6 +126,16 @@ template <typename S>
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API SpanCounts span_count(const SplineCurve<S>& curve) noexcept;
 
+/// Writes the knots of both directions as all calls take them: neighbouring ones that are no
+/// further apart than knot_tolerance are equal. The points are not read. u, v:    as many values as
+/// there are knots, also of uniform ones. Returns: ok | bad_degree | bad_grid | null_input |
+/// bad_knots | bad_range | bad_tolerance |
+///          size_overflow | output_too_small | out_of_memory. `component`: the direction; `point`:
+///          the knot.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Report merged_knots(const SplineSurface<S>& surface,
+                                                 std::span<double> u, std::span<double> v) noexcept;
+
 /// Makes Bézier nets of spline surfaces, those of the first surface first.
 /// surfaces:   equal degrees, components and presence of weights.
 /// out:        as many nets as there are patches, of the surfaces' degrees and components, in other

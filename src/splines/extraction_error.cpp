@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/one_point.hpp"
+#include "src/storage/vector_length.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -29,14 +31,14 @@ double merged_step(const SplineSurface<S>& surface) {
     if (!are_one_point(a, b - a, 2, components, surface.component_stride, surface.weights)) {
       return;
     }
-    double apart = 0;
-    double size = 0;
+    double point[kMostComponents];
+    double apart[kMostComponents];
     for (std::size_t c = 0; c < components; ++c) {
-      const double x = value(a, c) / value(a, components);
-      apart = std::hypot(apart, x - value(b, c) / value(b, components));
-      size = std::hypot(size, x);
+      point[c] = value(a, c) / value(a, components);
+      apart[c] = point[c] - value(b, c) / value(b, components);
     }
-    most = std::max(most, apart + 0x1p-51 * size);
+    most = std::max(most, vector_length(std::span(apart).first(components)) +
+                              0x1p-51 * vector_length(std::span(point).first(components)));
   };
   // The last ones of periodic directions are followed by the first ones.
   for (std::size_t row = 0; row < surface.rows; ++row) {
@@ -74,19 +76,16 @@ double extraction_error(const SplineSurface<S>& surface) noexcept {
       const double weight = rational ? value(surface.components) : 1;
       heaviest = std::max(heaviest, weight);
       lightest = std::min(lightest, weight);
-      double distance = 0;
+      double place[kMostComponents] = {};
       for (int c = 0; c < surface.components; ++c) {
         const bool multiplied = surface.weights == Weights::homogeneous;
         largest[c] = std::max(largest[c], std::abs(multiplied ? value(c) : value(c) * weight));
-        distance = std::hypot(distance, multiplied ? value(c) / weight : value(c));
+        place[c] = multiplied ? value(c) / weight : value(c);
       }
-      farthest = std::max(farthest, distance);
+      farthest = std::max(farthest, detail::vector_length(place));
     }
   }
-  double whole = 0;
-  for (int c = 0; c < surface.components; ++c) {
-    whole = std::hypot(whole, largest[c]);
-  }
+  const double whole = detail::vector_length(largest);
   // Of a homogeneous coordinate, relative to the largest one of its kind. Float rounds it once
   // more.
   const double relative = spline_error(surface.degree_u, surface.degree_v, surface.weights) +

@@ -1,6 +1,9 @@
 // Where parameters of splines lie, and how many spans there are: what knots alone decide.
 #include <simdbezier/splines.hpp>
 
+#include <algorithm>
+#include <span>
+
 #include "src/runtime/fp_environment.hpp"
 #include "src/splines/spline_knots.hpp"
 
@@ -28,6 +31,25 @@ Report for_places(const SplineKnots& knots, const SplineAxis& axis, std::size_t 
       return {status, 0, static_cast<std::ptrdiff_t>(k), direction};
     }
     visit(k, finder);
+  }
+  return {};
+}
+
+template <typename S>
+Report write_knots(const SplineSurface<S>& surface, std::span<double> u, std::span<double> v) {
+  const std::span<double> out[2] = {u, v};
+  SplineKnots knots[2];
+  for (int d = 0; d < 2; ++d) {
+    std::size_t knot = 0;
+    if (const Status status = knots[d].build(axis_of(surface, d), knot); !status) {
+      return {status, 0, static_cast<std::ptrdiff_t>(knot), d};
+    }
+    if (out[d].size() < knots[d].values().size()) {
+      return {Status::output_too_small, 0, 0, d};
+    }
+  }
+  for (int d = 0; d < 2; ++d) {
+    std::ranges::copy(knots[d].values(), out[d].begin());
   }
   return {};
 }
@@ -117,6 +139,13 @@ SpanCounts span_count(const SplineCurve<S>& curve) noexcept {
 }
 
 template <typename S>
+Report merged_knots(const SplineSurface<S>& surface, std::span<double> u,
+                    std::span<double> v) noexcept {
+  const detail::DefaultFpEnvironment environment;
+  return detail::guarded([&] { return detail::write_knots(surface, u, v); });
+}
+
+template <typename S>
 Report locate(const SplineSurface<S>& surface, std::size_t count, const double* U, const double* V,
               const SplinePlaces& places) noexcept {
   const detail::DefaultFpEnvironment environment;
@@ -139,6 +168,8 @@ Report locate(const SplineCurve<S>& curve, std::size_t count, const double* U,
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \
   template SIMDBEZIER_API SpanCounts span_count(const SplineSurface<S>&) noexcept;                 \
   template SIMDBEZIER_API SpanCounts span_count(const SplineCurve<S>&) noexcept;                   \
+  template SIMDBEZIER_API Report merged_knots(const SplineSurface<S>&, std::span<double>,          \
+                                              std::span<double>) noexcept;                         \
   template SIMDBEZIER_API Report locate(const SplineSurface<S>&, std::size_t, const double*,       \
                                         const double*, const SplinePlaces&) noexcept;              \
   template SIMDBEZIER_API Report locate(const SplineCurve<S>&, std::size_t, const double*,         \

@@ -39,6 +39,8 @@ public:
   [[nodiscard]] static Status check_points(const SplineAxis& axis) noexcept;
 
   [[nodiscard]] const std::vector<SplineSpan>& spans() const noexcept { return spans_; }
+  /// As they are given, but for those that count as equal.
+  [[nodiscard]] const std::vector<double>& values() const noexcept { return knots_; }
   [[nodiscard]] int degree() const noexcept { return degree_; }
   /// Points after which they begin again; more than there are where they do not.
   [[nodiscard]] std::size_t period() const noexcept { return period_; }

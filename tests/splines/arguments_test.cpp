@@ -340,6 +340,14 @@ TEST(SplineArguments, TheDomainEndsWhereItIsGivenTo) {
   ASSERT_TRUE(locate(curve, 1, &end, {&patch, &u}));
   EXPECT_EQ(patch, 1U);
   EXPECT_EQ(u, 1);
+  Given given;
+  given.knots_u = {0, 1, 2, 3, 3.5, 4, 5 - 1e-7, 5, 6};
+  given.surface.knots_u = given.knots_u;
+  given.surface.knot_tolerance = 1e-6;
+  std::vector<double> merged_u(9);
+  std::vector<double> merged_v(given.surface.rows + 4);
+  EXPECT_TRUE(merged_knots(given.surface, merged_u, merged_v));
+  EXPECT_EQ(merged_u, (std::vector<double>{0, 1, 2, 3, 3.5, 4, 5, 5, 6}));
 }
 
 TEST(SplineArguments, KnotsWithinTheToleranceAreOne) {
@@ -349,6 +357,13 @@ TEST(SplineArguments, KnotsWithinTheToleranceAreOne) {
   EXPECT_EQ(span_count(given.surface).u, 4U);
   given.surface.knot_tolerance = 1e-9;
   EXPECT_EQ(span_count(given.surface).u, 3U);
+  std::vector<double> merged_u(9);
+  std::vector<double> merged_v(given.surface.rows + 4);
+  EXPECT_TRUE(merged_knots(given.surface, merged_u, merged_v));
+  EXPECT_EQ(merged_u, (std::vector<double>{0, 0, 0, 1, 2, 2, 4, 4, 4}));
+  const Report small = merged_knots(given.surface, merged_u, std::span(merged_v).first(6));
+  EXPECT_EQ(small.status, Status::output_too_small);
+  EXPECT_EQ(small.component, 1);
   ASSERT_TRUE(to_bezier(given.surface,
                         MutableNets<double>::packed(std::span(given.values).first(6 * 48), 6, 2, 3,
                                                     3, Weights::homogeneous),

@@ -8,6 +8,7 @@
 
 #include <tools/formats/text_input.hpp>
 #include <tools/process/failure.hpp>
+#include <tools/process/length.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -80,7 +81,7 @@ Camera parse_camera(const Words& words) {
     camera.eye[c] = places[c];
     camera.direction[c] = places[c + 3] - places[c];
   }
-  const double distance = std::hypot(camera.direction[0], camera.direction[1], camera.direction[2]);
+  const double distance = length_of(camera.direction);
   if (!(distance > 0 && std::isfinite(distance))) {
     refuse(1, words, "--camera", in_quotes(text));
   }

@@ -67,18 +67,6 @@ void require_knots(const std::string& file, const FileSpline& spline,
   check(report.status);
 }
 
-/// Makes those knots one that the library makes one; see SplineSurface::knot_tolerance. Returns
-/// whether there are any.
-bool merge_knots(std::vector<double>& knots, double tolerance) {
-  const std::vector<double> in_file = knots;
-  for (std::size_t k = 1; k < knots.size(); ++k) {
-    const bool same = in_file[k] - knots[k - 1] <= tolerance;
-    knots[k] = same ? knots[k - 1] : in_file[k];
-  }
-  std::replace(knots.begin(), knots.end(), knots.back(), in_file.back());
-  return knots != in_file;
-}
-
 SplineSurface<double> view_of(const FileSpline& spline, double knot_tolerance) {
   SplineSurface<double> surface;
   const std::ptrdiff_t channels = spline.weights == Weights::none ? 3 : 4;
@@ -142,8 +130,8 @@ void PatchFile::close_spline(const FileSpline& spline) {
   }
   splines.push_back({spline.line, spline.u, spline.v, rational, count, spans});
   SplineRecord& record = splines.back();
-  const bool merges_u = merge_knots(record.u.knots, tolerance);
-  merged_splines += merge_knots(record.v.knots, tolerance) || merges_u ? 1 : 0;
+  check(merged_knots(surface, record.u.knots, record.v.knots).status);
+  merged_splines += record.u.knots != spline.u.knots || record.v.knots != spline.v.knots ? 1 : 0;
   // The patches follow each other like those of a mesh of one column.
   PatchRun run{spline.u.degree, spline.v.degree, nets.weights};
   run.stride = stride;

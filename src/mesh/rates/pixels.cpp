@@ -54,7 +54,7 @@ public:
     axis_ =
         scaled_to_one({{camera.direction[0], camera.direction[1], camera.direction[2]}}, exponent);
     length_ = length(axis_);
-    radius_ = std::hypot(camera.width, camera.height) / 2 / camera.focal_length;
+    radius_ = length(Point3{{camera.width, camera.height, 0}}) / 2 / camera.focal_length;
     secant_ = std::sqrt(1 + radius_ * radius_);
     pixels_per_unit_ = camera.focal_length * (camera.orthographic ? 1 : secant_);
   }

@@ -1,33 +1,16 @@
 // position_errors() of rates.hpp and flatten.hpp.
 #include <algorithm>
-#include <cmath>
 
 #include <simdbezier/flatten.hpp>
 #include <simdbezier/rates.hpp>
 
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/storage/vector_length.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
-
-/// An upper bound on the norm of a vector of errors.
-double norm_bound(std::span<const double> errors) noexcept {
-  double square = 0;
-  for (const double error : errors) {
-    square += error * error;
-  }
-  const auto long_way = [&] { // where squares overflow or vanish
-    double norm = 0;
-    for (const double error : errors) {
-      norm = std::hypot(norm, error);
-    }
-    return norm;
-  };
-  const bool usual = square > 0x1p-900 && square < 0x1p900;
-  return (usual ? std::sqrt(square) : long_way()) * (1 + 0x1p-40);
-}
 
 /// most: components of a position.
 template <typename Set>
@@ -50,7 +33,8 @@ Status find_errors(const Set& set, int most, std::span<double> out,
       const std::size_t count = std::min(kBlock, last - first);
       find_position_bounds(set, chosen, first, first + count, bounds);
       for (std::size_t k = 0; k < count; ++k) {
-        out[first + k] = norm_bound(std::span(bounds[k]).first(components));
+        const double length = vector_length(std::span(bounds[k]).first(components));
+        out[first + k] = length * (1 + 0x1p-40); // its roundings
       }
     }
   };
