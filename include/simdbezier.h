@@ -32,12 +32,12 @@
 //   Handles    are made by one function and given back to one …_free(), which accepts null. They
 //              are immutable: any number of threads may use one at once.
 //   C++ alone  has results.hpp, PackOptions::reuse_memory, split_edges(), plan_again(), the fault,
-//              errors and seconds of plans, RateOptions::errors of meshes, find_distinct_nets(),
-//              counts of a part of a topology, spline_error(), extraction_error(), merged_knots(),
-//              and what takes a line or two in C: nets the other way round (by `first` and
-//              strides), iso_u() and iso_v() from nets to sets (by points), samples of spline
-//              curves (by places), grids of splines without a set, meets_tolerance(),
-//              derivative_divisor().
+//              errors and seconds of plans, RateOptions::errors and most_segments of meshes,
+//              find_distinct_nets(), counts of a part of a topology, spline_error(),
+//              extraction_error(), merged_knots(), and what takes a line or two in C: nets the
+//              other way round (by `first` and strides), iso_u() and iso_v() from nets to sets (by
+//              points), samples of spline curves (by places), grids of splines without a set,
+//              meets_tolerance(), derivative_divisor().
 #pragma once
 
 #include <simdbezier/c/curves.h>   // IWYU pragma: export

@@ -16,8 +16,9 @@ inline constexpr int kMostComponents = 16;
 enum class Weights : std::uint8_t {
   none,      ///< polynomial
   cartesian, ///< x y z w: the point is (x, y, z)
-  /// wx wy wz w: the point is (wx/w, wy/w, wz/w). If the quotients of two points differ by at most
-  /// 16 units of roundoff of S in every component, all calls take them for one point.
+  /// wx wy wz w: the point is (wx/w, wy/w, wz/w). If no component of the quotients of two points
+  /// differs by more than 16 units of roundoff of S, relative to the largest component of both (of
+  /// more than three components: each relative to itself), all calls take them for one point.
   homogeneous
 };
 

@@ -5,7 +5,8 @@
 //   options     how the call runs (options.hpp)
 //
 // evaluate_tiles() hands results to a function, and evaluate_derivatives() computes derivatives of
-// any order. curves.hpp contains the same calls for curves.
+// any order. curves.hpp contains evaluate() for curves. There are no tiles of curves, and their
+// derivatives end at the second order.
 //
 // Constraints that hold for every call
 //   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial (Parameters says how
@@ -26,9 +27,11 @@
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
 //   Layouts     packed planes, packed triples and vertices without gaps are the fast ones. Planes
-//               of unit stride are written directly. Triples and vertices without gaps are written
-//               directly on AVX2 and AVX-512, if edges are watertight and the set has no local
-//               origins. All others go by way of the first-level cache.
+//               of unit stride are written directly if they stay in the caches; streamed planes are
+//               written directly or by way of staging, whichever suits their rows. Triples and
+//               vertices without gaps are written directly on AVX2 and AVX-512, if edges are
+//               watertight and the set has no local origins. All others go by way of the
+//               first-level cache.
 //   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x. In y, degrees 3, 4 and 5 are
 //               evaluated by even and odd parts: 3 products and 2 sums a component and pair of
 //               samples of bicubic patches. All other degrees take Horner's rule: degree_v

@@ -40,10 +40,10 @@ struct MeshOutputs {
 ///             points are equal, all other patches have the same position bit for bit.
 /// Normal:     the sum of the unit normals of all patches that have the vertex, in ascending order
 ///             of patch and side or corner, divided by its length. Normals of patches that the
-///             topology turned are reversed, and zero normals add nothing.
-///             On an edge of two sides, the second patch's normals are left out if they disagree
-///             with the first one's and turning has not made them agree. If the sum is shorter than
-///             0.001 of the number of normals, the first normal stays.
+///             topology turned are reversed, and zero normals add nothing. On an edge of two sides,
+///             the normals of the second patch may disagree with those of the first one. If turning
+///             has not made them agree, they are left out. If the length of the sum is below 0.001
+///             times the number of normals, the first normal is used instead.
 /// Order:      if patches are given in another order, positions stay, as long as control points are
 ///             equal. Normals at inner points and on edges of one side or two stay, too. Other
 ///             normals change by the rounding of their sum. docs/tessellation.md says what the
@@ -86,8 +86,9 @@ template <typename T>
 
 /// Gives each patch vertices of its own on its sides and corners, so that they can have its own u,
 /// v. Their positions and merged normals are those of the vertex in `layout`, bit for bit. A side
-/// that is a point keeps one vertex a patch. Triangles stay as they are; if a patch has one row of
-/// cells, and two neighbouring sides are one edge, some appear with two vertices in one place.
+/// that is a point keeps one vertex a patch. Triangles stay as they are, with one exception: if a
+/// patch has one row of cells, and two of its neighbouring sides are one edge, some triangles
+/// appear that have two vertices in one place.
 /// layout:  of lay_out_mesh() or split_creases(), which may also be called afterwards. `split` may
 ///          be the same object; it keeps the layout alive.
 /// Threads: the caller's alone. Determinism: a function of the layout. Allocation: that of the

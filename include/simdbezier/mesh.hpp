@@ -23,10 +23,10 @@
 namespace simdbezier {
 
 /// What a mesh shall be like. The members up to nv say how fine it is. At least one of them is
-/// needed, and the mesh keeps all that are given. But a grid (nu, nv) excludes the others
-/// (bad_grid).
+/// needed. If several are given, the mesh satisfies all of them. A grid (nu, nv) must be given
+/// alone (else bad_grid).
 struct MeshOptions {
-  RateOptions rates = {}; ///< a tolerance, a longest edge, an angle
+  RateOptions rates = {}; ///< a tolerance, a longest edge, an angle; `keep` is ignored
   /// The tolerance as a share of the diagonal of the box of all control points.
   double relative_tolerance = kUnlimited;
   /// The most pixels that the mesh may be off in a picture; needs a camera.
@@ -74,7 +74,8 @@ struct RateFault {
   double error = 0;              ///< how far its vertices may be off
 };
 
-/// Wall time of the stages of a plan; 0 in WebAssembly, which has no clock of its own.
+/// Wall time of the stages of a plan; plan_again() adds its own to them. 0 in WebAssembly, which
+/// has no clock of its own.
 struct PlanSeconds {
   double topology = 0; ///< edges, and the layout
   double pack = 0;     ///< and errors of positions
@@ -149,9 +150,11 @@ template <typename T, typename S>
 ///          well. MeshPlan::patches has to be empty: no patches may have been left out or cut.
 /// options: topology, RateOptions::errors, drop_repeated, split_edges and local_origin are ignored,
 ///          because the plan was made with values of its own.
-/// Returns: as choose_rates() and lay_out_mesh(); null_input without a list of nets, bad_topology
-///          for other nets, bad_rates if errors are not one value a patch. On an error the plan
-///          keeps what is read, with the report and the fault.
+/// Returns: as choose_rates(), lay_out_mesh(), split_creases() and split_parameters(); bad_grid and
+///          bad_tolerance as plan_mesh(); null_input without a list of nets; bad_topology for
+///          another number of patches or other nets, or if MeshPlan::patches is not empty;
+///          bad_rates if errors are not one value a patch. On an error the plan keeps what is read,
+///          with the report and the fault.
 /// Memory, threads and cost: those of choose_rates() and lay_out_mesh().
 template <typename T, typename S>
 SIMDBEZIER_API Report plan_again(std::span<const ControlNets<S>> nets, const MeshOptions& options,

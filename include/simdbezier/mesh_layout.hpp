@@ -264,9 +264,9 @@ struct PatchVertices {
 /// Finds the numbers of the whole mesh for the vertices of a part.
 /// part, own: as above. first_vertex: the number of the first vertex that an own patch owns.
 /// ghosts:    what owned_vertices() told about the patches before the own ones, one value each.
-/// numbers:   one value for every vertex below part.first_vertex(own.first + own.count). A number
-///            that no ghost has told is kUnknownVertex; if all ghosts are there, own patches need
-///            no such number.
+/// numbers:   one value for every vertex below part.first_vertex(own.first + own.count).
+///            kUnknownVertex stands for numbers that `ghosts` do not give. If all ghosts are there,
+///            no such number belongs to a vertex of an own patch.
 /// Returns:   ok | bad_patch_range | unequal_lengths (ghosts) | output_too_small. Allocation: none.
 [[nodiscard]] SIMDBEZIER_API Status number_part(const MeshLayout& part, SetRange own,
                                                 std::uint64_t first_vertex,

@@ -170,10 +170,11 @@ struct SubPatch {
 };
 
 /// Cuts [u0, u1] x [v0, v1] out of every patch, as a patch over [0,1]^2 of the same degrees.
-/// Formula:            control point i is the blossom at u0 (degree - i times) and u1 (i times):
-///                     the mean of both orders of inserting them, so that neither end is favoured.
-///                     Pieces that meet at one parameter get bit-equal points there, and [0, u] is
-///                     what split_u() gives, except for u = 1: a whole direction is copied, while
+/// Formula:            control point i is the blossom at u0 (degree - i times) and u1 (i times). It
+///                     is computed twice, with u0 inserted first and with u1 inserted first, and
+///                     the result is the mean of both, so that neither end is favoured. Pieces that
+///                     meet at one parameter get bit-equal points there, and [0, u] is what
+///                     split_u() gives, except for u = 1: a whole direction is copied, while
 ///                     split_u() takes cartesian points to homogeneous ones and back.
 /// Parameters, errors: as split_u(). Cost: reading and writing the nets; O(degree^2) times that for
 /// high degrees. Whole directions cost nothing.

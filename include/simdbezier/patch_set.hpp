@@ -66,20 +66,21 @@ private:
 /// How control points become coefficients. The defaults suit nets near the origin.
 struct PackOptions {
   /// Each patch and each edge gets an origin of its own, which is added to positions last. Far from
-  /// 0, the error is then 0.8 u max|P| instead of 2 u max|P|; near 0 it is at most one rounding
-  /// more. The price is one addition a component and sample. This pays if the distance from 0 is
-  /// more than about four times the size of a patch. Beyond a hundred times the size, it also saves
-  /// time for float normals of patches with weights. Without it, most of these are uncertain, and
-  /// exact decisions about them take ten times as long. Both sides of a shared edge need the same
-  /// choice.
+  /// 0, the largest errors that were measured are then about 0.5 u max|P| instead of 2 u max|P|
+  /// (docs/accuracy.md); near 0 the error is at most one rounding larger. The price is one addition
+  /// a component and sample. This pays if the distance from 0 is more than about four times the
+  /// size of a patch. Beyond a hundred times the size, it also saves time for float normals of
+  /// patches with weights. Without it, most of these are uncertain, and exact decisions about them
+  /// take ten times as long. Both sides of a shared edge need the same choice.
   bool local_origin = false;
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. Use one point for all sets that share
   /// edges. Members beyond the components are ignored; others must be finite (non_finite_input).
   double relative_to[3] = {0, 0, 0};
-  /// Uses the set's memory again if there is room and no copy of the set shares it: for models that
-  /// move, because new pages cost more than packing. Nobody may evaluate the set meanwhile. After
-  /// an error the set is as it was, or empty.
+  /// Uses the set's memory again if it is large enough, but not more than about twice as large as
+  /// needed, and no copy of the set shares it. This is for models that move, because new pages cost
+  /// more than packing. Nobody may evaluate the set meanwhile. After an error the set is as it was,
+  /// or empty.
   bool reuse_memory = false;
   int threads = 0;          ///< as in RunOptions, to which this converts
   Isa isa = Isa::automatic; ///< as in RunOptions; results do not depend on it

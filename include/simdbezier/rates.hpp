@@ -40,16 +40,18 @@ struct RateOptions {
   /// would be chosen, or up to `keep` times as many, so that rates change seldom. Below 1, or nan:
   /// no rates are read or kept. plan_mesh() ignores this member.
   double keep = 0;
-  /// For models that stay: fewer triangles, in more time. If 1/1.6 of a patch's cells may be
-  /// enough, and these are not more than about 1024, fewer cells are searched for with bounds on
-  /// point sets. No patch has more cells than by default. Gumbo has 43, 31 and 28 % fewer triangles
-  /// at 1e-2, 1e-3 and 1e-4 of its size, and octants of spheres have half as many. Rates take 2 to
-  /// 8 us for each triangle (AVX2), and up to 0.1 s a patch. The default is for models that move.
+  /// For models that stay: fewer triangles, in more time. Fewer cells are searched for, with bounds
+  /// on point sets, if 1/1.6 of a patch's cells may be enough and this smaller number is at most
+  /// about 1024. No patch has more cells than by default. Gumbo has 43, 31 and 28 % fewer triangles
+  /// at 1e-2, 1e-3 and 1e-4 of its size, and octants of spheres have half as many. Rates then take
+  /// 0.3 to 8 us for each triangle (AVX2), and up to 0.1 s a patch. The default is for models that
+  /// move.
   bool thorough = false;
 };
 
-/// A pinhole camera, or an orthographic one. If a point is one unit away along the direction, and x
-/// units off it, the pinhole camera shows it x * focal_length pixels from the picture's middle.
+/// A pinhole camera, or an orthographic one. Take a point whose distance from the eye is one unit
+/// along the direction, and x units across it. The pinhole camera shows this point x * focal_length
+/// pixels from the middle of the picture.
 struct Camera {
   std::array<double, 3> eye = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
@@ -76,8 +78,8 @@ struct CertifiedRates {
 };
 
 /// Bounds the distance of evaluated positions of each patch from the exact ones, by the norm of
-/// error_bounds() over three components. out: one value a patch. Allocation: none. Cost: some 0.2
-/// us a bicubic patch, 3 us with weights. Returns ok | output_too_small | unknown_isa |
+/// error_bounds() over three components. out: one value a patch. Allocation: none. Cost: 10 to 20
+/// ns a bicubic patch, 3 us with weights. Returns ok | output_too_small | unknown_isa |
 /// unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
@@ -91,8 +93,9 @@ template <typename T>
 /// Unseen:  a patch that is skipped, or nearer than Camera::nearest, gets kUnlimited: as few cells
 ///          as its neighbours allow. Meshes stay closed.
 /// out:     one value a patch. Cost: one pass over the control points, on the caller's thread.
-/// Returns: ok | the statuses of views | bad_tolerance (pixels, or a member of the camera, that is
-///          not above zero and finite) | output_too_small. Allocation: none.
+/// Returns: ok | the statuses of views | bad_tolerance (pixels, focal_length, width, height or
+///          nearest that is not above zero and finite; an eye that is not finite; a direction of
+///          length zero, or not finite) | output_too_small. Allocation: none.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> nets,
                                                      const Camera& camera, double pixels,
@@ -114,16 +117,17 @@ template <typename S>
 ///              class of instruction sets (Isa), for any number of threads.
 /// Allocation:  bytes a patch, scratch per thread. Outputs must not overlap inputs (not checked).
 /// Returns:     ok | the statuses of views (bad_components: not three) | non_finite_input |
-///              bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (one
-///              that is not above both zero and the patch's error, an error below 0 or nan, or more
-///              than most_segments needed) | bad_topology (found for other nets, see fits()) |
-///              snap_too_large (snapping has taken more than half of a tolerance) | the statuses of
-///              running. The report names the patch. Outputs are undefined on an error.
+///              bad_weight | bad_rates (spans that are not one value a patch, or a topology of
+///              another number of patches) | bad_tolerance (one that is not above both zero and the
+///              patch's error, an error below 0 or nan, or more than most_segments needed) |
+///              bad_topology (found for other nets, see fits()) | snap_too_large (snapping has
+///              taken more than half of a tolerance) | the statuses of running. The report names
+///              the patch. Outputs are undefined on an error.
 /// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch, 0.65 us in double. On AVX2,
-///              patches of other degrees or with forced diagonals take 1 to 4 us up to degree 5,
-///              and 15 us for degree 15. With weights they take 35 us, and up to 100 us more if the
-///              weights are products. Uneven parameters add 5 us a cell of a bicubic patch, up to a
-///              second. Certificates are included.
+///              patches of other degrees, with weights or with forced diagonals take 1 to 4 us up
+///              to degree 5. Patches of degree 15 take 15 us, or 35 us with weights. Weights that
+///              are products add up to 100 us. Uneven parameters add 5 us a cell of a bicubic
+///              patch, up to a second. Certificates are included.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Report choose_rates(std::span<const ControlNets<S>> nets,
                                                  const Topology& topology,

@@ -11,9 +11,9 @@
 // times a, k times b): means of at most p + 1 neighbouring d with factors made of the knots.
 //
 // Constraints that hold for every call
-//   Knots     n + p + 1 numbers in ascending order, in double whatever the points are. A knot may
-//             occur up to p + 1 times; t_p < t_n. No knots: uniform ones, t_i = i - p. openNURBS
-//             leaves the first and the last one out.
+//   Knots     n + p + 1 numbers in ascending order, none beyond 2^1000 in size, in double whatever
+//             the points are. A knot may occur up to p + 1 times; t_p < t_n. No knots: uniform
+//             ones, t_i = i - p. openNURBS leaves the first and the last one out.
 //   Periodic  directions have n control points, which begin again after the last one, and n + 1
 //             knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i, t_(i+1)] depends
 //             on points i to i + p modulo n. No knots: t_i = i.
@@ -26,10 +26,10 @@
 //   Bits      Factors that are 1 copy points, so that clamped ends are control points bit for bit.
 //             Equal points give that point. Pieces on both sides of a knot that occurs up to p
 //             times have bit-equal points there. If two splines are clamped on an edge, and have
-//             equal control points and knots along it, their points along it are bit-equal,
-//             whichever of u and v they call it, also if one runs the other way with exactly
-//             mirrored knots. Results do not depend on the instruction set, threads or other
-//             splines.
+//             equal control points and knots along it, their points along it are bit-equal. The
+//             edge may run in u in one and in v in the other. It may also run the other way in one
+//             of them, if its knots are exactly mirrored. Results do not depend on the instruction
+//             set, threads or other splines.
 //   Weights   must be above 0, doubles at least 2^-1000; products w P are rounded once to double
 //             before anything else, and those that S cannot hold are coefficient_overflow.
 //   Faults    control values must be finite; the first surface and point at fault is named.
@@ -87,9 +87,10 @@ struct SplineSurface {
   std::span<const double> knots_v = {};
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
-  /// Neighbouring knots no further apart than this become the first of them, or at the end of the
-  /// domain the last. An end of a range that is this near to a knot becomes that knot (bad_range if
-  /// both ends become one).
+  /// A knot that is no further than this from the knot before it, and from the first one of the
+  /// equal knots before it, joins these. All of them become their first knot, or at the end of the
+  /// domain their last one. An end of a range that is this near to a knot becomes that knot
+  /// (bad_range if both ends become one).
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };
@@ -126,10 +127,10 @@ template <typename S>
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API SpanCounts span_count(const SplineCurve<S>& curve) noexcept;
 
-/// Writes the knots of both directions as all calls take them: neighbouring ones that are no
-/// further apart than knot_tolerance are equal. The points are not read. u, v:    as many values as
-/// there are knots, also of uniform ones. Returns: ok | bad_degree | bad_grid | null_input |
-/// bad_knots | bad_range | bad_tolerance |
+/// Writes the knots of both directions as all calls take them: those are equal that knot_tolerance
+/// makes equal. The points are not read.
+/// u, v:    as many values as there are knots, also of uniform ones.
+/// Returns: ok | bad_degree | bad_grid | null_input | bad_knots | bad_range | bad_tolerance |
 ///          size_overflow | output_too_small | out_of_memory. `component`: the direction; `point`:
 ///          the knot.
 template <typename S>

@@ -25,7 +25,7 @@ public:
     ok,
     null_input,     ///< a required input pointer is null
     null_output,    ///< no output was asked for, or the memory of one is null
-    bad_degree,     ///< a degree is below 1 or above kMostDegree
+    bad_degree,     ///< a degree or an order of derivatives is out of range, or does not fit
     bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
     bad_weight,     ///< a weight is not positive and finite, or there are some and none can be
     bad_stride,     ///< the strides let two values share one place
@@ -33,7 +33,7 @@ public:
     bad_offsets,          ///< offsets do not ascend far enough for the samples between them
     non_finite_input,     ///< a control point or a parameter of the whole call is nan or infinite
     coefficient_overflow, ///< the control points are finite, but their coefficients are not
-    bad_grid,         ///< a uniform grid needs 2 samples or more in each direction, a given one 1
+    bad_grid,         ///< too few samples in a direction (uniform grids: 2), or points of a spline
     bad_patch_range,  ///< patches or curves outside of the set were asked for
     bad_patch_index,  ///< a scattered sample names a patch or curve outside of the set
     size_overflow,    ///< the number of samples or bytes exceeds what memory can address
@@ -51,9 +51,9 @@ public:
     extra_y,          ///< an output has a y plane, and the points no second component for it
     extra_z,          ///< an output has a z plane, and the points no third component for it
     snap_too_large,   ///< snapping moves a patch by more than half of its tolerance
-    bad_knots,        ///< knots of a spline are too few or many, descend, or one counts too often
-    bad_range,        ///< a range or parameter of a spline is not inside of its domain
-    bad_topology      ///< sides that the topology joins are apart in these control nets
+    bad_knots,   ///< knots of a spline are too few, many or large, descend, or one occurs too often
+    bad_range,   ///< a range or parameter of a spline is not inside of its domain
+    bad_topology ///< sides that the topology joins are apart in these control nets
   };
 
   constexpr Status() noexcept = default;
@@ -98,8 +98,8 @@ struct Report {
 /// Let N(t) be du x dv on the way from the sample's centred parameters, as rounded, to the patch's
 /// middle: at (x, y) (1 - t), and from the middle itself at (t, t). The normal has the direction of
 /// the first Taylor coefficient of N in t that is not zero. Which one that is, is decided exactly,
-/// for the control points as given to pack(). If it is not the very first, the angular error of the
-/// normal is at most 10^-3 degree in float and 10^-9 in double.
+/// for the control points as given to pack(). If a later coefficient than the first one gives the
+/// normal, its angular error is at most 10^-3 degree in float and 10^-9 degree in double.
 enum class SampleStatus : std::uint8_t {
   regular,    ///< the first coefficient, du x dv itself, is not zero
   limit,      ///< du x dv is zero, a later coefficient is not: the normal's limit

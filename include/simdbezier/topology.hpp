@@ -122,18 +122,19 @@ struct DistinctNets {
 /// nets:    those of `topology`. A view ends before a patch that is left out, and another one
 ///          begins behind it.
 /// Threads: one. Allocation: 4 bytes a patch, and the views. Cost: some nanoseconds a patch.
-/// Returns: ok | null_input (no list) | unequal_lengths (other number of patches) | out_of_memory.
+/// Returns: ok | null_input (no list) | size_overflow | unequal_lengths (other number of patches) |
+///          out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_distinct_nets(std::span<const ControlNets<S>> nets,
                                                        const Topology& topology,
                                                        DistinctNets<S>& distinct) noexcept;
 
 /// Whether nets have all joints of a topology that was found for others of the same shapes, such as
-/// an earlier frame of a model that moves: sides that it joins still have equal control points (or
-/// are within TopologyOptions::snap of each other), and sides that it takes for points are points
-/// (within point_size or snap; sides that matched a point are as near to it as they were then).
-/// Meshes of such nets have no gap there. Sides that have become equal since then are not looked
-/// for. choose_rates() and certify_rates() refuse nets that do not fit.
+/// an earlier frame of a model that moves: sides that it joins still have equal control points or
+/// are within TopologyOptions::snap of each other. Sides that it takes for points still are points,
+/// within point_size or snap. Sides that matched a point are no farther from it than they were
+/// then. Meshes of such nets have no gap there. Sides that have become equal since then are not
+/// looked for. choose_rates() and certify_rates() refuse nets that do not fit.
 /// Allocation: some bytes a view. Cost: some 40 ns a patch; 1 us if snapped.
 /// Determinism: a function of the topology and the control points.
 /// Returns: false also if find_topology() would refuse the nets, or memory is lacking.
@@ -177,8 +178,9 @@ struct EdgeLink {
 ///            same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
 ///            counts as none; other weights must have the same form. Such edges are watertight.
 /// Collapsed: all points are one, whatever their weights: Cartesian ones if their coordinates are
-///            equal, homogeneous ones also if their quotients differ by roundings, 16 u of the
-///            larger of two in each coordinate (u = 2^-24 or 2^-53).
+///            equal, homogeneous ones also if no coordinate of their quotients differs by more than
+///            16 u of the largest coordinate of them all (u = 2^-24 or 2^-53). Of points with more
+///            than three components, each component counts by itself.
 /// Returns:   ok | the statuses of views (also size_overflow: 2^30 patches or more) | null_output |
 ///            output_too_small | overlapping_outputs | out_of_memory.
 /// Cost:      by hashing, some 50 ns an edge, for values that are not made to collide. Allocation:

@@ -19,7 +19,7 @@ constexpr std::string_view kTexts[] = {
     "the offsets do not leave every patch or curve room for its samples",
     "a control point or a parameter of the whole call is nan or infinite",
     "the coefficients of a patch exceed the range of the number type",
-    "a uniform grid needs at least 2 x 2 samples, a given one 1 x 1",
+    "too few samples (a uniform grid needs 2 x 2, a given one 1 x 1) or points of a spline",
     "patches or curves outside of the set were asked for",
     "a sample names a patch or curve outside of the set",
     "there are more samples or vertices than memory, or the numbers of indices, can address",

@@ -60,7 +60,7 @@ typedef struct simdbezier_topology_counts {
 SIMDBEZIER_API simdbezier_status simdbezier_find_topology(
     const simdbezier_nets* nets, size_t length, const simdbezier_topology_options* options,
     simdbezier_topology** topology);
-// fits(): 1 or 0.
+// fits(): 1 or 0. Nets that find_topology() refuses give its status instead.
 SIMDBEZIER_API simdbezier_status simdbezier_topology_fits(const simdbezier_topology* topology,
                                                           const simdbezier_nets* nets,
                                                           size_t length, int32_t threads,

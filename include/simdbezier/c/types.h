@@ -68,7 +68,7 @@ typedef struct simdbezier_fault {
   int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, or not known; of
                         // splines see c/splines.h
   int32_t component;    // its component; the number of components for a weight
-  size_t patch;         // the patch or curve at fault, if control points are
+  size_t patch;         // the patch, curve or spline at fault, if a single one is
   const char* function; // "simdbezier_pack"
   const char* argument; // "nets[0].points"; empty if no single one is at fault
 } simdbezier_fault;
