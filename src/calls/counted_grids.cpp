@@ -1,4 +1,3 @@
-// See src/calls/counted_grids.hpp.
 #include "src/calls/counted_grids.hpp"
 
 #include <new>

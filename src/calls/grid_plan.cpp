@@ -1,4 +1,3 @@
-// See src/calls/grid_plan.hpp.
 #include "src/calls/grid_plan.hpp"
 #include "src/runtime/both_types.hpp"
 

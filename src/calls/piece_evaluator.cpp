@@ -1,4 +1,3 @@
-// See src/calls/piece_evaluator.hpp.
 #include "src/calls/piece_evaluator.hpp"
 
 #include <algorithm>

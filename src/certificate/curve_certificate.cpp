@@ -7,7 +7,6 @@
 
 #include "src/certificate/certificate_sums.hpp"
 #include "src/certificate/position_bounds.hpp"
-#include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
 
 namespace simdbezier {

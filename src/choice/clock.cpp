@@ -1,4 +1,3 @@
-// See src/choice/clock.hpp.
 #include "src/choice/clock.hpp"
 
 #include "src/runtime/useful_threads.hpp"

@@ -1,4 +1,3 @@
-// See src/choice/line_costs.hpp.
 #include "src/choice/line_costs.hpp"
 
 #include <algorithm>

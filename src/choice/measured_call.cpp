@@ -1,4 +1,3 @@
-// See src/choice/measured_call.hpp.
 #include "src/choice/measured_call.hpp"
 
 #include <cstdlib>
@@ -215,10 +214,6 @@ Destination resolve_destination(Destination wanted, std::size_t bytes) noexcept 
   }
   static const Destination environment = read_environment();
   return environment;
-}
-
-bool is_measured(Destination resolved, std::size_t bytes) noexcept {
-  return exceeds_caches(bytes) && resolved != Destination::cache;
 }
 
 CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options) noexcept {

@@ -75,13 +75,7 @@ struct AnyWork {
 /// Bytes of the vectors of `samples` samples.
 template <typename T>
 [[nodiscard]] std::size_t written_bytes(const OutputList<T>& out, std::size_t samples) noexcept {
-  std::size_t values = 0;
-  for (std::size_t g = 0; g < out.vector_count; ++g) {
-    if (out.wants(g)) {
-      values += dimension_of(*out.vectors[g]);
-    }
-  }
-  return samples * values * sizeof(T);
+  return samples * out.vector_values() * sizeof(T);
 }
 
 enum class CallName : std::uint8_t {
@@ -151,10 +145,11 @@ Status run_in_cache(const Call& call, const Options& options) noexcept {
 
 /// Measured blocks of each way. One half block runs ahead of them.
 inline constexpr std::size_t kMeasurements = 3;
-inline constexpr std::size_t kHalvesOfWay = 1 + 2 * kMeasurements;
 
 /// Returns the half blocks of all ways.
-constexpr std::size_t half_blocks(std::size_t ways) noexcept { return kHalvesOfWay * ways; }
+constexpr std::size_t half_blocks(std::size_t ways) noexcept {
+  return (1 + 2 * kMeasurements) * ways;
+}
 
 /// Returns at most `items`, and a multiple of 16 if there are as many: so many rows are whole
 /// lines.
@@ -186,9 +181,6 @@ DestinationNotes& destination_notes() noexcept;
 /// Where `bytes` bytes go that a caller wants to go to `wanted`: automatic where only a measurement
 /// can tell.
 [[nodiscard]] Destination resolve_destination(Destination wanted, std::size_t bytes) noexcept;
-
-/// Whether calls of so many bytes measure.
-[[nodiscard]] bool is_measured(Destination resolved, std::size_t bytes) noexcept;
 
 /// A call's work in one way.
 struct WayOfCall {
@@ -233,7 +225,7 @@ Status run_to_destination(const Call& call, const Options& options) noexcept {
   const std::size_t bytes = call.written();
   const Destination destination = resolve_destination(options.destination, bytes);
   Way way = destination == Destination::cache ? Way::cache : Way::memory;
-  if (is_measured(destination, bytes)) {
+  if (destination != Destination::cache && exceeds_caches(bytes)) {
     CallKind kind = measured_kind(call.kind(), bytes, options);
     kind.add(static_cast<std::uint64_t>(destination));
     const DestinationNotes::Answer answer = destination_notes().ask(kind);

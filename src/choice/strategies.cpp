@@ -1,4 +1,3 @@
-// See src/choice/strategies.hpp.
 #include "src/choice/strategies.hpp"
 
 #include <atomic>

@@ -1,4 +1,3 @@
-// See src/exact/normal_fallback.hpp.
 #include "src/exact/normal_fallback.hpp"
 
 #include <cmath>

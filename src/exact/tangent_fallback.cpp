@@ -33,17 +33,10 @@ public:
     const auto n = static_cast<int>(degree_);
     return points_.rational() ? 2 * n - 1 : n - 1;
   }
-  /// How many factors of a kind the terms of a coefficient have.
+  /// How many factors of a kind the terms of a coefficient have: points, weights or parameters u.
   [[nodiscard]] int factors(Quantity kind) const {
-    const bool rational = points_.rational();
-    switch (kind) {
-    case kPoint:
-      return 1;
-    case kWeight:
-      return rational ? 2 : 0;
-    default:
-      return highest() * (kind == kParameterU ? 1 : 0);
-    }
+    const int weights = points_.rational() ? 2 : 0;
+    return kind == kPoint ? 1 : kind == kParameterU ? highest() : weights;
   }
 
   [[nodiscard]] BoundedField field() const {

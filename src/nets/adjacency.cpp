@@ -1,4 +1,3 @@
-// See topology.hpp.
 #include <simdbezier/topology.hpp>
 
 #include <new>

@@ -1,4 +1,3 @@
-// See src/nets/iso_points.hpp.
 #include "src/nets/iso_points.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See src/nets/linear_maps.hpp.
 #include "src/nets/linear_maps.hpp"
 
 #include <algorithm>
@@ -119,40 +118,6 @@ LinearMap cubic(const LinearMap::Row (&rows)[4], bool keeps_constants) noexcept 
   return map;
 }
 
-LinearMap hermite_to_bezier() noexcept {
-  return cubic({copy(0), sum({{0, 2, 3, 1}}, 1, 3), sum({{1, 3, 3, -1}}, 1, 3), copy(1)}, false);
-}
-
-LinearMap bezier_to_hermite() noexcept {
-  return cubic({copy(0), copy(3), sum({{0, 1, -1, 1}}, 3, 1), sum({{2, 3, -1, 1}}, 3, 1)}, false);
-}
-
-LinearMap catmull_rom_to_bezier() noexcept {
-  return cubic({copy(1), sum({{0, 2, -1, 1}, {1, 1, 6, 0}}, 1, 6),
-                sum({{1, 3, 1, -1}, {2, 2, 6, 0}}, 1, 6), copy(2)},
-               true);
-}
-
-LinearMap bezier_to_catmull_rom() noexcept {
-  return cubic({sum({{0, 1, 6, -6}, {3, 3, 1, 0}}, 1, 1), copy(0), copy(3),
-                sum({{2, 3, -6, 6}, {0, 0, 1, 0}}, 1, 1)},
-               true);
-}
-
-/// Outer points are added first: the last point of a piece and the first point of the next are then
-/// the same sum of the same three points.
-LinearMap b_spline_to_bezier() noexcept {
-  return cubic({sum({{0, 2, 1, 1}, {1, 1, 4, 0}}, 1, 6), sum({{1, 2, 4, 2}}, 1, 6),
-                sum({{1, 2, 2, 4}}, 1, 6), sum({{1, 3, 1, 1}, {2, 2, 4, 0}}, 1, 6)},
-               true);
-}
-
-LinearMap bezier_to_b_spline() noexcept {
-  return cubic({sum({{0, 1, 6, -7}, {2, 2, 2, 0}}, 1, 1), sum({{1, 2, 2, -1}}, 1, 1),
-                sum({{1, 2, -1, 2}}, 1, 1), sum({{2, 3, -7, 6}, {1, 1, 2, 0}}, 1, 1)},
-               true);
-}
-
 } // namespace
 
 LinearMap identity_map(int degree) noexcept {
@@ -227,13 +192,29 @@ LinearMap basis_map(Basis basis, int degree, bool to_bezier) noexcept {
   case Basis::centred_power:
     return to_bezier ? centred_power_to_bezier(degree) : bezier_to_centred_power(degree);
   case Basis::hermite:
-    return to_bezier ? hermite_to_bezier() : bezier_to_hermite();
+    return to_bezier
+               ? cubic({copy(0), sum({{0, 2, 3, 1}}, 1, 3), sum({{1, 3, 3, -1}}, 1, 3), copy(1)},
+                       false)
+               : cubic({copy(0), copy(3), sum({{0, 1, -1, 1}}, 3, 1), sum({{2, 3, -1, 1}}, 3, 1)},
+                       false);
   case Basis::catmull_rom:
-    return to_bezier ? catmull_rom_to_bezier() : bezier_to_catmull_rom();
+    return to_bezier ? cubic({copy(1), sum({{0, 2, -1, 1}, {1, 1, 6, 0}}, 1, 6),
+                              sum({{1, 3, 1, -1}, {2, 2, 6, 0}}, 1, 6), copy(2)},
+                             true)
+                     : cubic({sum({{0, 1, 6, -6}, {3, 3, 1, 0}}, 1, 1), copy(0), copy(3),
+                              sum({{2, 3, -6, 6}, {0, 0, 1, 0}}, 1, 1)},
+                             true);
   case Basis::b_spline:
     break;
   }
-  return to_bezier ? b_spline_to_bezier() : bezier_to_b_spline();
+  // Outer points are added first: the last point of a piece and the first point of the next are
+  // then the same sum of the same three points.
+  return to_bezier ? cubic({sum({{0, 2, 1, 1}, {1, 1, 4, 0}}, 1, 6), sum({{1, 2, 4, 2}}, 1, 6),
+                            sum({{1, 2, 2, 4}}, 1, 6), sum({{1, 3, 1, 1}, {2, 2, 4, 0}}, 1, 6)},
+                           true)
+                   : cubic({sum({{0, 1, 6, -7}, {2, 2, 2, 0}}, 1, 1), sum({{1, 2, 2, -1}}, 1, 1),
+                            sum({{1, 2, -1, 2}}, 1, 1), sum({{2, 3, -7, 6}, {1, 1, 2, 0}}, 1, 1)},
+                           true);
 }
 
 } // namespace simdbezier::detail

@@ -1,4 +1,3 @@
-// See src/nets/net_call.hpp.
 #include "src/nets/net_call.hpp"
 
 #include <bit>

@@ -1,4 +1,3 @@
-// See src/nets/net_places.hpp.
 #include "src/nets/net_places.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See src/output/delivery.hpp.
 #include "src/output/delivery.hpp"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "src/output/output_list.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/tables/drain_queue.hpp"
 
 namespace simdbezier::detail {
@@ -168,9 +169,6 @@ Status check_outputs(const OutputList<T>& out, std::size_t samples, std::size_t 
   return check_overlaps(columns, statuses, inputs);
 }
 
-template Status check_outputs(const OutputList<float>&, std::size_t, std::size_t,
-                              std::span<const MemoryRange>) noexcept;
-template Status check_outputs(const OutputList<double>&, std::size_t, std::size_t,
-                              std::span<const MemoryRange>) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(check_outputs);
 
 } // namespace simdbezier::detail

@@ -81,6 +81,14 @@ struct OutputList {
     return *vectors[output_index(output)];
   }
   [[nodiscard]] bool wants_vectors() const noexcept { return wanted_ != 0; }
+  /// The values of one sample in all vectors that are wanted.
+  [[nodiscard]] std::size_t vector_values() const noexcept {
+    std::size_t values = 0;
+    for (std::size_t g = 0; g < vector_count; ++g) {
+      values += wants(g) ? dimension_of(*vectors[g]) : 0;
+    }
+    return values;
+  }
   [[nodiscard]] bool wants_curvature() const noexcept { return wants_curvature_; }
   /// The caller's statuses from a sample on; null where they are not wanted.
   [[nodiscard]] SampleStatus* status_at(std::size_t sample) const noexcept {

@@ -1,4 +1,3 @@
-// See src/output/output_plan.hpp.
 #include "src/output/output_plan.hpp"
 
 #include <algorithm>
@@ -36,12 +35,16 @@ std::size_t StreamShape<T>::records_to_line(std::size_t record) const noexcept {
 
 template <typename T>
 OutputPlan<T>::OutputPlan(const OutputList<T>& out, Way way) noexcept : out_(out), way_(way) {
-  for (std::size_t g = 0; g < out.vector_count; ++g) {
-    if (out.wants(g)) {
-      vector_values_ += dimension_of(*out.vectors[g]);
-    }
+  // What is not written directly: everything where stores are to bypass the caches, records
+  // otherwise.
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
+    const bool stages = out_.wants(g) && (streaming() || out_.vectors[g]->stride != 1);
+    first_plane_[g] = stages ? staged_planes_ : kNotStaged;
+    staged_planes_ += stages ? dimension_of(*out_.vectors[g]) : 0;
   }
-  stage();
+  if (staged_planes_ > 0) {
+    add_streams();
+  }
 }
 
 template <typename T>
@@ -56,20 +59,6 @@ std::size_t OutputPlan<T>::chunk_bytes() const noexcept {
   }
 }
 
-/// What is not written directly: everything where stores are to bypass the caches, records
-/// otherwise.
-template <typename T>
-void OutputPlan<T>::stage() noexcept {
-  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
-    const bool stages = out_.wants(g) && (streaming() || out_.vectors[g]->stride != 1);
-    first_plane_[g] = stages ? staged_planes_ : kNotStaged;
-    staged_planes_ += stages ? dimension_of(*out_.vectors[g]) : 0;
-  }
-  if (staged_planes_ > 0) {
-    add_streams();
-  }
-}
-
 template <typename T>
 void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   if (!staged()) {
@@ -80,7 +69,7 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const bool vertex =
       record == staged_planes_ && (record % 3 == 0 || (rows.vertices && record == kVertexRecord));
   const bool known = record == 1 || record == 3 || vertex;
-  const bool all = staged_planes_ == vector_values_;
+  const bool all = staged_planes_ == out_.vector_values();
   const bool anywhere = record == 1 && rows.streamed_anywhere;
   const bool whole_lines = rows.row % line == 0;
   const bool fills = rows.row >= rows.lanes; // a register

@@ -73,12 +73,10 @@ public:
 private:
   static constexpr std::size_t kNotStaged = ~std::size_t(0);
 
-  void stage() noexcept;
   void add_streams() noexcept;
 
   const OutputList<T>& out_;
   Way way_;
-  std::size_t vector_values_ = 0; ///< of one sample
   std::size_t staged_planes_ = 0;
   std::size_t record_ = 1;
   std::size_t first_plane_[kVectorOutputs];

@@ -12,6 +12,7 @@
 
 #include "src/nets/net_call.hpp"
 #include "src/pack/pack_request.hpp"
+#include "src/runtime/both_types.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -155,8 +156,7 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
   return Status::ok;
 }
 
-template Report check_packable(std::span<const ControlNets<float>>) noexcept;
-template Report check_packable(std::span<const ControlNets<double>>) noexcept;
+SIMDBEZIER_OF_BOTH_TYPES(check_packable);
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
   template Status lay_out(std::span<const ControlNets<S>>, const PackOptions&, SetStorage<T>*,     \
                           SetStorage<T>&, std::vector<PackRun>&);

@@ -1,4 +1,3 @@
-// See cache_sizes.hpp.
 #include "src/runtime/cache_sizes.hpp"
 
 #include <algorithm>

@@ -32,14 +32,7 @@ struct AvailableIsas {
   }
 };
 
-bool is_available(Isa wanted) noexcept {
-  for (const Isa isa : available_isas()) {
-    if (isa == wanted) {
-      return true;
-    }
-  }
-  return false;
-}
+bool is_available(Isa wanted) noexcept { return std::ranges::count(available_isas(), wanted) > 0; }
 
 struct Resolution {
   Status status;

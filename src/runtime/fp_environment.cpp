@@ -1,4 +1,3 @@
-// See src/runtime/fp_environment.hpp.
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier::detail {

@@ -2,6 +2,9 @@
 // cmake/isa.cmake: SIMDBEZIER_INSTRUCTION_SET(name, NAME, fuses, runs_here) for each of them.
 #include <simdbezier/options.hpp>
 
+#include <algorithm>
+#include <iterator>
+
 #include "src/runtime/dispatch.hpp"
 
 namespace simdbezier {
@@ -33,12 +36,8 @@ constexpr InstructionSet kSets[] = {
 #undef SIMDBEZIER_INSTRUCTION_SET
 
 const InstructionSet* find(Isa isa) noexcept {
-  for (const InstructionSet& set : kSets) {
-    if (set.isa == isa) {
-      return &set;
-    }
-  }
-  return nullptr;
+  const InstructionSet* const set = std::ranges::find(kSets, isa, &InstructionSet::isa);
+  return set == std::end(kSets) ? nullptr : set;
 }
 
 } // namespace
@@ -49,12 +48,8 @@ std::string_view to_string(Isa isa) noexcept {
 }
 
 std::optional<Isa> isa_from_name(std::string_view name) noexcept {
-  for (const InstructionSet& set : kSets) {
-    if (set.name == name) {
-      return set.isa;
-    }
-  }
-  return std::nullopt;
+  const InstructionSet* const set = std::ranges::find(kSets, name, &InstructionSet::name);
+  return set == std::end(kSets) ? std::nullopt : std::optional(set->isa);
 }
 
 bool fuses_multiply_add(Isa isa) noexcept {

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "src/runtime/fp_environment.hpp"
 #include "src/splines/spline_grid_work.hpp"
 
 namespace simdbezier {
@@ -112,7 +111,6 @@ Report evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface,
                         std::span<const double> U, std::span<const double> V,
                         const std::type_identity_t<Outputs<T>>& out, const Options& options,
                         std::size_t first_patch) noexcept {
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded([&] {
     return detail::evaluate_surface<T, S>(set, surface, U, V, out, options, first_patch);
   });
@@ -122,7 +120,6 @@ template <typename T, typename S>
 Report evaluate_samples(const CurveSet<T>& set, const SplineCurve<S>& curve,
                         std::span<const double> t, const std::type_identity_t<CurveOutputs<T>>& out,
                         const Options& options, std::size_t first_curve) noexcept {
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded(
       [&] { return detail::evaluate_curve<T, S>(set, curve, t, out, options, first_curve); });
 }

@@ -60,7 +60,6 @@ Report evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface,
                      std::span<const double> U, std::span<const double> V,
                      const std::type_identity_t<Outputs<T>>& out, const Options& options,
                      std::size_t first_patch) noexcept {
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded([&]() -> Report {
     detail::AxisRuns<T> u;
     detail::AxisRuns<T> v;

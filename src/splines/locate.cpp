@@ -141,14 +141,12 @@ SpanCounts span_count(const SplineCurve<S>& curve) noexcept {
 template <typename S>
 Report merged_knots(const SplineSurface<S>& surface, std::span<double> u,
                     std::span<double> v) noexcept {
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded([&] { return detail::write_knots(surface, u, v); });
 }
 
 template <typename S>
 Report locate(const SplineSurface<S>& surface, std::size_t count, const double* U, const double* V,
               const SplinePlaces& places) noexcept {
-  const detail::DefaultFpEnvironment environment;
   const double* const at[2] = {U, V};
   return detail::guarded([&]() -> Report {
     return surface.degree_v == 0 ? Report{Status::bad_degree, 0, 0, 1}
@@ -159,7 +157,6 @@ Report locate(const SplineSurface<S>& surface, std::size_t count, const double* 
 template <typename S>
 Report locate(const SplineCurve<S>& curve, std::size_t count, const double* U,
               const SplinePlaces& places) noexcept {
-  const detail::DefaultFpEnvironment environment;
   const double* const at[2] = {U, nullptr};
   return detail::guarded(
       [&] { return detail::find_places(detail::as_surface(curve), count, at, places); });

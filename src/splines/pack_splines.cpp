@@ -174,7 +174,6 @@ Report pack(std::span<const SplineSurface<S>> surfaces, PatchSet<T>& set,
   if (surfaces.data() == nullptr && !surfaces.empty()) {
     return {Status::null_input};
   }
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded([&]() -> Report {
     if (const Report report = detail::check_components(surfaces); !report) {
       return report;

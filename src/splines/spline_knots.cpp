@@ -1,4 +1,3 @@
-// See src/splines/spline_knots.hpp.
 #include "src/splines/spline_knots.hpp"
 
 #include <algorithm>

@@ -10,6 +10,7 @@
 
 #include <simdbezier/splines.hpp>
 
+#include "src/runtime/fp_environment.hpp"
 #include "src/splines/two_doubles.hpp"
 
 namespace simdbezier::detail {
@@ -161,9 +162,11 @@ SplineSurface<S> as_surface(const SplineCurve<S>& curve) noexcept {
 template <typename S>
 [[nodiscard]] SpanCounts spans_of(const SplineSurface<S>& surface);
 
-/// What a step reports; out_of_memory where it throws.
+/// What a step of a call reports, in the default floating-point environment; out_of_memory where
+/// it throws.
 template <typename Step>
 Report guarded(const Step& step) noexcept {
+  const DefaultFpEnvironment environment;
   try {
     return step();
   } catch (const std::bad_alloc&) {

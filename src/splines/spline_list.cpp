@@ -1,4 +1,3 @@
-// See src/splines/spline_list.hpp.
 #include "src/splines/spline_list.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See src/splines/spline_nets.hpp.
 #include "src/splines/spline_nets.hpp"
 
 #include <algorithm>

@@ -128,7 +128,6 @@ Report to_bezier(std::span<const SplineSurface<T>> surfaces,
   if (surfaces.data() == nullptr && !surfaces.empty()) {
     return {Status::null_input};
   }
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded(
       [&] { return detail::cut_surfaces<T>(surfaces, out, intervals, options); });
 }
@@ -142,7 +141,6 @@ Report to_bezier(const SplineSurface<T>& surface, const std::type_identity_t<Mut
 template <typename T>
 Report to_bezier(const SplineCurve<T>& curve, const std::type_identity_t<Values<T>>& points,
                  std::span<Interval> intervals, const RunOptions& options) noexcept {
-  const detail::DefaultFpEnvironment environment;
   return detail::guarded([&] { return detail::cut_curve<T>(curve, points, intervals, options); });
 }
 

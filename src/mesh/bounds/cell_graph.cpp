@@ -1,4 +1,3 @@
-// See cell_graph.hpp.
 #include "src/mesh/bounds/cell_graph.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See chord_distance.hpp.
 #include "src/mesh/bounds/chord_distance.hpp"
 
 #include <algorithm>

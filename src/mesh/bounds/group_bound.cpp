@@ -1,4 +1,3 @@
-// See group_bound.hpp.
 #include "src/mesh/bounds/group_bound.hpp"
 
 #include <algorithm>

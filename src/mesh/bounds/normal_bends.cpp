@@ -1,4 +1,3 @@
-// See normal_bends.hpp.
 #include "src/mesh/bounds/normal_bends.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See space_bound.hpp.
 #include "src/mesh/bounds/space_bound.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See vector_patch.hpp.
 #include "src/mesh/bounds/vector_patch.hpp"
 
 #include <algorithm>

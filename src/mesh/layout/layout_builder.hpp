@@ -5,6 +5,9 @@
 
 namespace simdbezier::detail {
 
+/// Whether a mesh, which may be none, has these patches; a range to the end gets its count.
+bool has_range(const MeshData* mesh, SetRange& patches) noexcept;
+
 /// One value a patch, each 1 to kMostSegments.
 bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept;
 

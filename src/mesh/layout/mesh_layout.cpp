@@ -1,4 +1,3 @@
-// See mesh_layout.hpp.
 #include <simdbezier/mesh_layout.hpp>
 
 #include <algorithm>

@@ -2,17 +2,18 @@
 #include <simdbezier/mesh_layout.hpp>
 
 #include "src/calls/call.hpp"
+#include "src/mesh/layout/layout_builder.hpp"
 #include "src/mesh/layout/mesh_data.hpp"
 
 namespace simdbezier {
 namespace detail {
-namespace {
 
-/// Whether a mesh has these patches; a range to the end gets its count.
-bool has_range(const MeshData* mesh, SetRange& own) noexcept {
-  const SetRange given = own;
-  return resolve_range(given, mesh == nullptr ? 0 : mesh->patches(), own.first, own.count);
+bool has_range(const MeshData* mesh, SetRange& patches) noexcept {
+  const SetRange given = patches;
+  return resolve_range(given, mesh == nullptr ? 0 : mesh->patches(), patches.first, patches.count);
 }
+
+namespace {
 
 /// Calls visit(the member of PatchVertices, where its vertices begin) for what a patch owns, in the
 /// order of its numbers. Layouts with several vertices in one place number these consecutively.
@@ -20,18 +21,12 @@ template <typename Vertices, typename Visit>
 void for_owned_vertices(const MeshData& mesh, std::size_t patch, Vertices& vertices,
                         const Visit& visit) {
   const TopologyData& topology = *mesh.topology.data();
-  for (std::size_t k = 0; k < kPatchCorners; ++k) {
-    const std::size_t corner = kPatchCorners * patch + k;
-    if (topology.corners[corner] == corner) {
-      visit(vertices.corners[k], mesh.corners[corner]);
-    }
-  }
-  for (std::size_t k = 0; k < kPatchEdges; ++k) {
-    const std::size_t side = kPatchEdges * patch + k;
-    if (topology.owns_edge(side)) {
-      visit(vertices.edges[k], mesh.edge_first[topology.sides[side].edge()]);
-    }
-  }
+  topology.for_owned_corners(patch, [&](std::uint32_t corner) {
+    visit(vertices.corners[corner % kPatchCorners], mesh.corners[corner]);
+  });
+  topology.for_owned_edges(patch, [&](std::uint32_t edge) { // its first side is the owner's
+    visit(vertices.edges[topology.sides_of(edge)[0] % kPatchEdges], mesh.edge_first[edge]);
+  });
 }
 
 } // namespace

@@ -119,13 +119,10 @@ private:
           });
         }
       }
-      for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-        if (topology_.owns_edge(side)) {
-          const std::uint32_t edge = topology_.sides[side].edge();
-          vertices = number_edge(edge, vertices);
-          samples += topology_.sides_of(edge).size() * (mesh_.segments[edge] - 1);
-        }
-      }
+      topology_.for_owned_edges(patch, [&](std::uint32_t edge) {
+        vertices = number_edge(edge, vertices);
+        samples += topology_.sides_of(edge).size() * (mesh_.segments[edge] - 1);
+      });
       most_vertices = std::max<std::size_t>(most_vertices, vertices - first);
       most_samples = std::max(most_samples, samples);
       mesh_.inner[patch] = static_cast<std::uint32_t>(vertices);

@@ -7,7 +7,7 @@
 
 #include <simdbezier/mesh_layout.hpp>
 
-#include "src/calls/call.hpp"
+#include "src/mesh/layout/layout_builder.hpp"
 #include "src/mesh/layout/mesh_data.hpp"
 
 namespace simdbezier::detail {
@@ -24,17 +24,5 @@ Status check_indices(const MeshLayout& layout, std::span<const Index> indices,
   }
   return indices.size() < needed ? Status::output_too_small : Status::ok;
 }
-
-/// The patches of a layout that a call is about.
-struct PatchRange {
-  std::size_t first = 0;
-  std::size_t count = 0;
-
-  /// Returns false where the layout has no such patches.
-  [[nodiscard]] bool resolve(const MeshLayout& layout, SetRange patches) noexcept {
-    const std::size_t all = layout.data() == nullptr ? 0 : layout.data()->patches();
-    return resolve_range(patches, all, first, count);
-  }
-};
 
 } // namespace simdbezier::detail

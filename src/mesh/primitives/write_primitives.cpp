@@ -1,4 +1,3 @@
-// See mesh_layout.hpp.
 #include <simdbezier/mesh_layout.hpp>
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 
 /// Calls visit(patch, cutter, turned) for some patches, in parallel.
 template <typename Visit>
-Status for_cells(const MeshLayout& layout, const PatchRange& patches, int threads,
+Status for_cells(const MeshLayout& layout, const SetRange& patches, int threads,
                  const Visit& visit) noexcept {
   if (patches.count == 0) {
     return Status::ok;
@@ -95,15 +94,15 @@ typename Kind::Size put(const Kind& kind, const typename Kind::Size& before, std
 
 /// Counts what some patches become: sizes[k] is what stands before the k-th, the last one all.
 template <typename Kind>
-Status count(const MeshLayout& layout, SetRange patches, int threads, PatchRange& range,
+Status count(const MeshLayout& layout, SetRange& patches, int threads,
              std::vector<typename Kind::Size>& sizes) {
-  if (!range.resolve(layout, patches)) {
+  if (!has_range(layout.data(), patches)) {
     return Status::bad_patch_range;
   }
-  sizes.assign(range.count + 1, {});
+  sizes.assign(patches.count + 1, {});
   const Status status = for_cells(
-      layout, range, threads, [&](std::size_t patch, const CellCutter& cells, bool turned) {
-        sizes[patch - range.first + 1] = put(Kind(), {}, patch, cells, turned);
+      layout, patches, threads, [&](std::size_t patch, const CellCutter& cells, bool turned) {
+        sizes[patch - patches.first + 1] = put(Kind(), {}, patch, cells, turned);
       });
   for (std::size_t k = 1; k < sizes.size(); ++k) {
     add(sizes[k - 1], sizes[k]);
@@ -115,9 +114,8 @@ Status count(const MeshLayout& layout, SetRange patches, int threads, PatchRange
 template <typename Kind>
 Status find_size(const MeshLayout& layout, SetRange patches, int threads,
                  typename Kind::Size& size) noexcept try {
-  PatchRange range;
   std::vector<typename Kind::Size> sizes;
-  const Status status = count<Kind>(layout, patches, threads, range, sizes);
+  const Status status = count<Kind>(layout, patches, threads, sizes);
   size = status ? sizes.back() : size;
   return status;
 } catch (const std::bad_alloc&) {
@@ -128,17 +126,16 @@ Status find_size(const MeshLayout& layout, SetRange patches, int threads,
 template <typename Kind, typename Check>
 Status write(const MeshLayout& layout, SetRange patches, int threads, const Kind& kind,
              const Check& check) noexcept try {
-  PatchRange range;
   std::vector<typename Kind::Size> before;
-  if (const Status status = count<Kind>(layout, patches, threads, range, before); !status) {
+  if (const Status status = count<Kind>(layout, patches, threads, before); !status) {
     return status;
   }
   if (const Status status = check(before.back()); !status) {
     return status;
   }
-  return for_cells(layout, range, threads,
+  return for_cells(layout, patches, threads,
                    [&](std::size_t patch, const CellCutter& cells, bool turned) {
-                     put(kind, before[patch - range.first], patch, cells, turned);
+                     put(kind, before[patch - patches.first], patch, cells, turned);
                    });
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;

@@ -1,4 +1,3 @@
-// See mesh_layout.hpp.
 #include <simdbezier/mesh_layout.hpp>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "src/mesh/primitives/primitive_sinks.hpp"
 #include "src/mesh/primitives/regular_patch.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/runtime/dispatch.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -91,8 +91,7 @@ bool streams_to(Destination destination, std::size_t bytes) noexcept {
 /// Threads share triangles, not patches, whose rates may differ much.
 template <typename Index>
 Status write_all_triangles(const MeshData& mesh, const KernelTable<float>& table,
-                           const PatchRange& range, Index* to, int threads,
-                           bool streaming) noexcept {
+                           const SetRange& range, Index* to, int threads, bool streaming) noexcept {
   const auto first = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(range.first);
   const auto last = first + static_cast<std::ptrdiff_t>(range.count);
   const std::size_t before = *first;
@@ -122,12 +121,11 @@ Status write_all_triangles(const MeshData& mesh, const KernelTable<float>& table
 template <typename Index>
 Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, const Options& options,
                        SetRange patches) noexcept {
-  detail::PatchRange range;
-  if (!range.resolve(layout, patches)) {
+  if (!detail::has_range(layout.data(), patches)) {
     return Status::bad_patch_range;
   }
-  const std::size_t before = layout.first_triangle(range.first);
-  const std::size_t needed = 3 * (layout.first_triangle(range.first + range.count) - before);
+  const std::size_t before = layout.first_triangle(patches.first);
+  const std::size_t needed = 3 * (layout.first_triangle(patches.first + patches.count) - before);
   const Status status = detail::check_indices<Index>(layout, triangles, needed);
   if (status != Status::ok || needed == 0) {
     return status;
@@ -138,7 +136,7 @@ Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, con
   }
   const bool streaming = detail::streams_to(options.destination, needed * sizeof(Index));
   const Status written =
-      detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), range,
+      detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), patches,
                                   triangles.data(), options.threads, streaming);
   if (written) {
     detail::note_executed(isa);

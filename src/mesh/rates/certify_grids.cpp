@@ -1,4 +1,3 @@
-// See rates.hpp.
 #include <simdbezier/rates.hpp>
 
 #include <new>
@@ -6,6 +5,7 @@
 
 #include "src/mesh/rates/patch_groups.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -74,11 +74,6 @@ Report certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t cells_u
   return {Status::out_of_memory};
 }
 
-template SIMDBEZIER_API Report certify_grids(std::span<const ControlNets<float>>, std::uint32_t,
-                                             std::uint32_t, std::span<const double>,
-                                             std::span<double>, const RunOptions&) noexcept;
-template SIMDBEZIER_API Report certify_grids(std::span<const ControlNets<double>>, std::uint32_t,
-                                             std::uint32_t, std::span<const double>,
-                                             std::span<double>, const RunOptions&) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(certify_grids);
 
 } // namespace simdbezier

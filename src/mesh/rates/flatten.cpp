@@ -1,4 +1,3 @@
-// See flatten.hpp.
 #include <simdbezier/flatten.hpp>
 
 #include <algorithm>

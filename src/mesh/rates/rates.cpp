@@ -1,4 +1,3 @@
-// See rates.hpp.
 #include <simdbezier/rates.hpp>
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See topology.hpp.
 #include <simdbezier/topology.hpp>
 
 #include <algorithm>
@@ -13,7 +12,6 @@
 #include "src/mesh/split/along_finder.hpp"
 #include "src/mesh/topology/net_corners.hpp"
 #include "src/mesh/topology/topology_data.hpp"
-#include "src/nets/net_call.hpp"
 #include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/runtime/sort.hpp"

@@ -1,4 +1,3 @@
-// See net_corners.hpp.
 #include "src/mesh/topology/net_corners.hpp"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See marks.hpp.
 #include "src/mesh/topology/marks.hpp"
 
 #include <algorithm>

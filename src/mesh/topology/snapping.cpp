@@ -1,4 +1,3 @@
-// See snapping.hpp.
 #include "src/mesh/topology/snapping.hpp"
 
 #include <algorithm>

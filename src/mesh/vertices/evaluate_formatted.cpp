@@ -6,6 +6,7 @@
 #include "src/mesh/vertices/formatted_columns.hpp"
 #include "src/mesh/vertices/vertex_work.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/tables/format_table.hpp"
 
@@ -210,10 +211,7 @@ Status evaluate_mesh(const PatchSet<T>& set, const MeshLayout& layout, const For
   return detail::make_call(detail::FormattedCall<T>(set, layout, out, options, patches), options);
 }
 
-template SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<float>>, VertexFormat,
-                                                QuantisationBox&) noexcept;
-template SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<double>>, VertexFormat,
-                                                QuantisationBox&) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(quantisation_box);
 template SIMDBEZIER_API Status evaluate_mesh(const PatchSet<float>&, const MeshLayout&,
                                              const FormattedOutputs&, const Options&,
                                              SetRange) noexcept;

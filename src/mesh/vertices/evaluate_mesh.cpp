@@ -1,4 +1,3 @@
-// See evaluate_mesh.hpp.
 #include <simdbezier/evaluate_mesh.hpp>
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include "src/mesh/layout/layout_builder.hpp"
 #include "src/mesh/radians.hpp"
 #include "src/mesh/vertices/crease_groups.hpp"
+#include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -143,9 +144,6 @@ Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double de
   return Status::out_of_memory;
 }
 
-template SIMDBEZIER_API Status split_creases(const PatchSet<float>&, const MeshLayout&, double,
-                                             MeshLayout&, const Options&) noexcept;
-template SIMDBEZIER_API Status split_creases(const PatchSet<double>&, const MeshLayout&, double,
-                                             MeshLayout&, const Options&) noexcept;
+SIMDBEZIER_EXPORT_BOTH_TYPES(split_creases);
 
 } // namespace simdbezier
