@@ -82,7 +82,7 @@ private:
   }
   simdbezier::Status find_errors() { return simdbezier::position_errors(set_, errors_, run_); }
   simdbezier::Status find_tolerances() {
-    return simdbezier::pixel_tolerances(nets(), camera_, pixels_, std::span(tolerances_));
+    return simdbezier::pixel_tolerances(nets(), camera_, pixels_, std::span(tolerances_), run_);
   }
   simdbezier::Status choose() {
     simdbezier::RateOptions options;

@@ -92,14 +92,16 @@ template <typename T>
 ///          corners. An orthographic camera has pixels / focal_length.
 /// Unseen:  a patch that is skipped, or nearer than Camera::nearest, gets kUnlimited: as few cells
 ///          as its neighbours allow. Meshes stay closed.
-/// out:     one value a patch. Cost: one pass over the control points, on the caller's thread.
+/// out:     one value a patch. Cost: one pass over the control points.
 /// Returns: ok | the statuses of views | bad_tolerance (pixels, focal_length, width, height or
 ///          nearest that is not above zero and finite; an eye that is not finite; a direction of
-///          length zero, or not finite) | output_too_small. Allocation: none.
+///          length zero, or not finite) | output_too_small | unknown_isa | unsupported_isa.
+///          Allocation: none. Neither threads nor the instruction set change a bit.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> nets,
                                                      const Camera& camera, double pixels,
-                                                     std::span<double> out) noexcept;
+                                                     std::span<double> out,
+                                                     const RunOptions& options = {}) noexcept;
 
 /// Chooses a small number of rows and columns of cells for every patch, and the diagonals of the
 /// cells, so that the triangles stay within the patch's tolerance. The rates depend on the patch's
@@ -167,8 +169,9 @@ template <typename S>
 // The same for a single view.
 template <typename S>
 [[nodiscard]] Status pixel_tolerances(const ControlNets<S>& nets, const Camera& camera,
-                                      double pixels, std::span<double> out) noexcept {
-  return pixel_tolerances(std::span<const ControlNets<S>>(&nets, 1), camera, pixels, out);
+                                      double pixels, std::span<double> out,
+                                      const RunOptions& options = {}) noexcept {
+  return pixel_tolerances(std::span<const ControlNets<S>>(&nets, 1), camera, pixels, out, options);
 }
 template <typename S>
 [[nodiscard]] Report choose_rates(const ControlNets<S>& nets, const Topology& topology,

@@ -277,7 +277,7 @@ private:
     tolerances_.assign(plan_.set.size(), kUnlimited);
     if (pixels) {
       if (const Status status = view_tolerances<S>(nets_, plan_.topology, options_.camera,
-                                                   options_.pixels, tolerances_);
+                                                   options_.pixels, tolerances_, options_);
           !status) {
         return status;
       }

@@ -237,20 +237,29 @@ TEST(View, asks_nothing_of_patches_behind_the_camera) {
   }
 }
 
-/// Nets are measured several at once, unless they are few or not side by side.
+/// Nets are measured several at once, unless they are few or not side by side, and by several
+/// threads where they are many.
 template <typename T>
 void expect_tolerances_of_single_nets() {
+  constexpr std::size_t kNets = 10'007;
   Random random(11);
-  std::vector<T> values(23 * 50);
+  std::vector<T> values(kNets * 50);
   for (T& value : values) {
     value = static_cast<T>(random.between(-9, 9));
   }
   const Camera camera = random_camera(random);
   for (const std::ptrdiff_t stride : {48, 50}) {
-    auto nets = ControlNets<T>::packed(values.data(), 23, 3, 3);
+    auto nets = ControlNets<T>::packed(values.data(), kNets, 3, 3);
     nets.patch_stride = stride;
     std::vector<double> together(nets.count);
     ASSERT_TRUE(pixel_tolerances(nets, camera, 1, std::span(together)));
+    for (const Isa isa : available_isas()) {
+      for (const int threads : {1, 3}) {
+        std::vector<double> again(nets.count);
+        ASSERT_TRUE(pixel_tolerances(nets, camera, 1, std::span(again), {threads, isa}));
+        EXPECT_TRUE(again == together) << to_string(isa) << threads;
+      }
+    }
     for (std::size_t p = 0; p < nets.count; ++p) {
       auto single = nets;
       single.points += static_cast<std::ptrdiff_t>(p) * stride;

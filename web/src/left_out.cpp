@@ -57,8 +57,8 @@ namespace simdbezier::detail {
 // Tolerances in pixels.
 template <typename S>
 Status view_tolerances(std::span<const ControlNets<S>> /*nets*/, const Topology& /*topology*/,
-                       const Camera& /*camera*/, double /*pixels*/,
-                       std::span<double> /*out*/) noexcept {
+                       const Camera& /*camera*/, double /*pixels*/, std::span<double> /*out*/,
+                       const RunOptions& /*options*/) noexcept {
   __builtin_trap();
 }
 SIMDBEZIER_OF_BOTH_TYPES(view_tolerances);

@@ -7,6 +7,7 @@
 
 #include "src/mesh/net_points.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/batch.hpp"
 #include "src/runtime/both_types.hpp"
 #include "src/runtime/fp_environment.hpp"
 
@@ -65,16 +66,16 @@ public:
            is_positive(camera_.height) && is_positive(camera_.nearest) &&
            is_finite({{eye[0], eye[1], eye[2]}});
   }
-  /// Writes the tolerances of a view's patches, whose numbers in the topology are from `first` on.
+  /// Writes the tolerances of a view's patches from `begin` to `end`. first: the number of the
+  /// view's first patch in the topology.
   template <typename S>
-  void write_tolerances(const ControlNets<S>& nets, std::size_t first, double pixels,
-                        double* out) const {
+  void write_tolerances(const ControlNets<S>& nets, std::size_t first, std::size_t begin,
+                        std::size_t end, double pixels, Isa isa, double* out) const {
     const NetView<const S> view = view_of(nets);
-    Isa isa = Isa::automatic;
-    const bool measured = resolve_isa(isa, isa) == Status::ok && view.packed &&
-                          nets.weights == Weights::none && nets.degree_u == 3 && nets.degree_v == 3;
-    std::size_t patch = 0;
-    for (; measured && nets.count - patch >= kMeasured; patch += kMeasured) {
+    const bool measured =
+        view.packed && nets.weights == Weights::none && nets.degree_u == 3 && nets.degree_v == 3;
+    std::size_t patch = begin;
+    for (; measured && end - patch >= kMeasured; patch += kMeasured) {
       double nearest[kMeasured];
       double farthest[kMeasured];
       for (std::size_t k = 0; k < kMeasured; ++k) {
@@ -88,7 +89,7 @@ public:
             sees(nets, patch + k, first, farthest[k]) ? tolerance(nearest[k], pixels) : kUnlimited;
       }
     }
-    for (; patch < nets.count; ++patch) {
+    for (; patch < end; ++patch) {
       double nearest = HUGE_VAL;
       double farthest = -HUGE_VAL;
       for_points(nets, patch, [&](const Point3& point) {
@@ -194,7 +195,8 @@ private:
 
 template <typename S>
 Status view_tolerances(std::span<const ControlNets<S>> nets, const Topology& topology,
-                       const Camera& camera, double pixels, std::span<double> out) noexcept {
+                       const Camera& camera, double pixels, std::span<double> out,
+                       const RunOptions& options) noexcept {
   const View camera_view(camera, topology);
   if (!camera_view.is_sound() || !is_positive(pixels)) {
     return Status::bad_tolerance;
@@ -211,9 +213,16 @@ Status view_tolerances(std::span<const ControlNets<S>> nets, const Topology& top
   if (out.size() < patches) {
     return Status::output_too_small;
   }
+  Isa isa = Isa::automatic;
+  if (const Status status = resolve_isa(options.isa, isa); !status) {
+    return status;
+  }
   std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
-    camera_view.write_tolerances(view, first, pixels, out.data() + first);
+    auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+      camera_view.write_tolerances(view, first, begin, end, pixels, isa, out.data() + first);
+    };
+    divide_work(view.count, 10, options.threads, body);
     first += view.count;
   }
   return Status::ok;
@@ -225,14 +234,16 @@ SIMDBEZIER_OF_BOTH_TYPES(view_tolerances);
 
 template <typename S>
 Status pixel_tolerances(std::span<const ControlNets<S>> nets, const Camera& camera, double pixels,
-                        std::span<double> out) noexcept {
+                        std::span<double> out, const RunOptions& options) noexcept {
   const detail::DefaultFpEnvironment environment;
-  return detail::view_tolerances(nets, Topology(), camera, pixels, out);
+  return detail::view_tolerances(nets, Topology(), camera, pixels, out, options);
 }
 
 template SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<float>>, const Camera&,
-                                                double, std::span<double>) noexcept;
+                                                double, std::span<double>,
+                                                const RunOptions&) noexcept;
 template SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<double>>, const Camera&,
-                                                double, std::span<double>) noexcept;
+                                                double, std::span<double>,
+                                                const RunOptions&) noexcept;
 
 } // namespace simdbezier

@@ -11,6 +11,7 @@ namespace simdbezier::detail {
 /// normals that the mesh has. topology: of these nets, or an empty one if no patch is turned.
 template <typename S>
 Status view_tolerances(std::span<const ControlNets<S>> nets, const Topology& topology,
-                       const Camera& camera, double pixels, std::span<double> out) noexcept;
+                       const Camera& camera, double pixels, std::span<double> out,
+                       const RunOptions& options) noexcept;
 
 } // namespace simdbezier::detail
