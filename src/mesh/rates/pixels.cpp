@@ -66,11 +66,20 @@ public:
            is_positive(camera_.height) && is_positive(camera_.nearest) &&
            is_finite({{eye[0], eye[1], eye[2]}});
   }
-  /// Writes the tolerances of a view's patches from `begin` to `end`. first: the number of the
-  /// view's first patch in the topology.
+  /// Writes the tolerances of a view's patches, whose numbers in the topology are from `first` on.
   template <typename S>
-  void write_tolerances(const ControlNets<S>& nets, std::size_t first, std::size_t begin,
-                        std::size_t end, double pixels, Isa isa, double* out) const {
+  void write_tolerances(const ControlNets<S>& nets, std::size_t first, double pixels,
+                        const RunOptions& run, double* out) const {
+    auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+      write_some(nets, first, begin, end, pixels, run.isa, out);
+    };
+    divide_work(nets.count, 10, run.threads, body);
+  }
+
+private:
+  template <typename S>
+  void write_some(const ControlNets<S>& nets, std::size_t first, std::size_t begin, std::size_t end,
+                  double pixels, Isa isa, double* out) const {
     const NetView<const S> view = view_of(nets);
     const bool measured =
         view.packed && nets.weights == Weights::none && nets.degree_u == 3 && nets.degree_v == 3;
@@ -101,7 +110,6 @@ public:
     }
   }
 
-private:
   // nearest, farthest: depths of a patch's points, times the length of the camera's direction.
   [[nodiscard]] double tolerance(double nearest, double pixels) const {
     const double depth = std::max(nearest / length_, camera_.nearest);
@@ -219,10 +227,7 @@ Status view_tolerances(std::span<const ControlNets<S>> nets, const Topology& top
   }
   std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
-    auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
-      camera_view.write_tolerances(view, first, begin, end, pixels, isa, out.data() + first);
-    };
-    divide_work(view.count, 10, options.threads, body);
+    camera_view.write_tolerances(view, first, pixels, {options.threads, isa}, out.data() + first);
     first += view.count;
   }
   return Status::ok;
