@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <tools/formats/text_input.hpp>
+#include <tools/formats/input/text_input.hpp>
 #include <tools/patches/library_status.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>

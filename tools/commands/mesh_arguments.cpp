@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <tools/formats/text_input.hpp>
+#include <tools/formats/input/text_input.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/length.hpp>
 #include <tools/process/output_file.hpp>

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include <tools/formats/lexer.hpp>
+#include <tools/formats/input/lexer.hpp>
 #include <tools/formats/patch_file.hpp>
 
 namespace simdbezier::tools {

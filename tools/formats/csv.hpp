@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include <simdbezier/outputs.hpp>
-#include <tools/formats/text_input.hpp>
+#include <tools/formats/input/text_input.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {

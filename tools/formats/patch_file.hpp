@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
-#include <tools/formats/file_spline.hpp>
-#include <tools/formats/large_pages.hpp>
-#include <tools/formats/segment_mesh.hpp>
-#include <tools/formats/text_input.hpp>
+#include <tools/formats/input/large_pages.hpp>
+#include <tools/formats/input/text_input.hpp>
+#include <tools/formats/surfaces/file_spline.hpp>
+#include <tools/formats/surfaces/segment_mesh.hpp>
 
 namespace simdbezier::tools {
 

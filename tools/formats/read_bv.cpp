@@ -1,7 +1,7 @@
 // BezierView .bv: segments of a kind, its degrees and its points, with lines "group COLOUR NAME"
 // in between. Points stand in rows of deg_v + 1, rows in the order of the format's u: what it calls
 // u runs across the rows and is our v. Kind 8 has points wx wy wz w.
-#include <tools/formats/lexer.hpp>
+#include <tools/formats/input/lexer.hpp>
 #include <tools/formats/patch_file.hpp>
 
 #include <utility>

@@ -3,7 +3,7 @@
 //     [SURFACE BEZIER {attributes} UORDER VORDER TYPE [x y z] …]       TYPE E3, or
 //                                                     [w wx wy wz] …   P3,
 // VORDER rows of UORDER points: u is fastest, as it is here.
-#include <tools/formats/lexer.hpp>
+#include <tools/formats/input/lexer.hpp>
 #include <tools/formats/patch_file.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <tools/formats/text_input.hpp>
+#include <tools/formats/input/text_input.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {

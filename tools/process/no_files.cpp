@@ -1,8 +1,8 @@
 // What a module without files, terminals and zlib has in place of stored_file.cpp,
 // output_target.cpp, spill_file.cpp, temporary_file.cpp, progress.cpp and gunzip.cpp: bytes come
 // from memory and go to memory.
-#include <tools/formats/byte_source.hpp>
-#include <tools/formats/gunzip.hpp>
+#include <tools/formats/input/byte_source.hpp>
+#include <tools/formats/input/gunzip.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 #include <tools/process/progress.hpp>

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <tools/formats/affine_map.hpp>
-#include <tools/formats/basis_mesh.hpp>
-#include <tools/formats/rib_bases.hpp>
+#include <tools/formats/rib/bases.hpp>
+#include <tools/formats/surfaces/affine_map.hpp>
+#include <tools/formats/surfaces/basis_mesh.hpp>
 
 #include "tests/program/formats/format_files.hpp"
 

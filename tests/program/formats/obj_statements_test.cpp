@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <tools/formats/obj_statements.hpp>
+#include <tools/formats/obj/statements.hpp>
 
 #include "tests/program/formats/format_files.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/program/formats/format_files.hpp"
-#include "tools/formats/rib_requests.hpp"
+#include "tools/formats/rib/requests.hpp"
 
 namespace simdbezier::tests::rib_requests_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <regex>
 #include <string>
 
-#include <tools/formats/text_input.hpp>
+#include <tools/formats/input/text_input.hpp>
 #include <tools/process/failure.hpp>
 
 #include "tests/properties/accuracy/suite/evaluators.hpp"
