@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include <tools/commands/mesh_plan.hpp>
-#include <tools/commands/part_work.hpp>
+#include <tools/commands/meshes/mesh_plan.hpp>
+#include <tools/commands/meshes/part_work.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <tools/commands/bezier_cells.hpp>
-#include <tools/commands/grid_mesh.hpp>
-#include <tools/commands/part_work.hpp>
-#include <tools/commands/welded_mesh.hpp>
+#include <tools/commands/meshes/bezier_cells.hpp>
+#include <tools/commands/meshes/grid_mesh.hpp>
+#include <tools/commands/meshes/part_work.hpp>
+#include <tools/commands/meshes/welded_mesh.hpp>
 #include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/parts/part_file.hpp>
 #include <tools/patches/library_status.hpp>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <tools/commands/part_work.hpp>
+#include <tools/commands/meshes/part_work.hpp>
 #include <tools/commands/result_lines.hpp>
 #include <tools/mpi/rank_file.hpp>
 #include <tools/process/output_file.hpp>

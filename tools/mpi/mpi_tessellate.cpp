@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <tools/commands/grid_mesh.hpp>
-#include <tools/commands/part_work.hpp>
-#include <tools/commands/welded_mesh.hpp>
+#include <tools/commands/meshes/grid_mesh.hpp>
+#include <tools/commands/meshes/part_work.hpp>
+#include <tools/commands/meshes/welded_mesh.hpp>
 #include <tools/mpi/rank_stats.hpp>
 #include <tools/mpi/rank_writers.hpp>
 #include <tools/parts/joined_contents.hpp>

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include <tools/commands/arguments.hpp>
-#include <tools/commands/mesh_stats.hpp>
+#include <tools/commands/meshes/mesh_stats.hpp>
 #include <tools/mpi/ranks.hpp>
 
 namespace simdbezier::tools {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <tools/commands/mesh_plan.hpp>
-#include <tools/commands/welded_mesh.hpp>
+#include <tools/commands/meshes/mesh_plan.hpp>
+#include <tools/commands/meshes/welded_mesh.hpp>
 #include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/patches/library_status.hpp>
 #include <tools/patches/patch_box.hpp>

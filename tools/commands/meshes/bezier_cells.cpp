@@ -1,4 +1,4 @@
-#include <tools/commands/bezier_cells.hpp>
+#include <tools/commands/meshes/bezier_cells.hpp>
 
 #include <algorithm>
 #include <cmath>

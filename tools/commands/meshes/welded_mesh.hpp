@@ -6,10 +6,10 @@
 
 #include <simdbezier/simdbezier.hpp>
 #include <tools/commands/arguments.hpp>
-#include <tools/commands/mesh_faces.hpp>
-#include <tools/commands/mesh_plan.hpp>
-#include <tools/commands/mesh_source.hpp>
-#include <tools/commands/vertex_places.hpp>
+#include <tools/commands/meshes/mesh_faces.hpp>
+#include <tools/commands/meshes/mesh_plan.hpp>
+#include <tools/commands/meshes/mesh_source.hpp>
+#include <tools/commands/meshes/vertex_places.hpp>
 #include <tools/parts/model_part.hpp>
 #include <tools/parts/part_links.hpp>
 

@@ -1,4 +1,4 @@
-#include <tools/commands/mesh_links.hpp>
+#include <tools/commands/meshes/mesh_links.hpp>
 
 #include <algorithm>
 

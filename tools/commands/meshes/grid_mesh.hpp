@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <tools/commands/arguments.hpp>
-#include <tools/commands/mesh_source.hpp>
-#include <tools/commands/vertex_places.hpp>
+#include <tools/commands/meshes/mesh_source.hpp>
+#include <tools/commands/meshes/vertex_places.hpp>
 #include <tools/parts/model_part.hpp>
 #include <tools/patches/grid_blocks.hpp>
 

@@ -1,4 +1,4 @@
-#include <tools/commands/mesh_stats.hpp>
+#include <tools/commands/meshes/mesh_stats.hpp>
 
 #include <array>
 #include <cmath>

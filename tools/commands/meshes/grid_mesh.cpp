@@ -1,4 +1,4 @@
-#include <tools/commands/grid_mesh.hpp>
+#include <tools/commands/meshes/grid_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

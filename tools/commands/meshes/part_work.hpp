@@ -6,7 +6,7 @@
 #include <string>
 
 #include <tools/commands/arguments.hpp>
-#include <tools/commands/mesh_stats.hpp>
+#include <tools/commands/meshes/mesh_stats.hpp>
 #include <tools/parts/model_part.hpp>
 #include <tools/parts/patch_source.hpp>
 

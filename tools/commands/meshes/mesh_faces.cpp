@@ -1,4 +1,4 @@
-#include <tools/commands/mesh_faces.hpp>
+#include <tools/commands/meshes/mesh_faces.hpp>
 
 #include <algorithm>
 #include <utility>

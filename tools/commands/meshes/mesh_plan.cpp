@@ -1,4 +1,4 @@
-#include <tools/commands/mesh_plan.hpp>
+#include <tools/commands/meshes/mesh_plan.hpp>
 
 #include <algorithm>
 #include <cmath>

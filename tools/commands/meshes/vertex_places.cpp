@@ -1,4 +1,4 @@
-#include <tools/commands/vertex_places.hpp>
+#include <tools/commands/meshes/vertex_places.hpp>
 
 #include <cmath>
 #include <limits>

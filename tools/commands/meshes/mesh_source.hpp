@@ -1,7 +1,7 @@
 // Meshes on their way to a file: block by block, so that memory does not grow with them.
 #pragma once
 
-#include <tools/commands/mesh_stats.hpp>
+#include <tools/commands/meshes/mesh_stats.hpp>
 #include <tools/mesh_files/mesh_file.hpp>
 #include <tools/parts/part_links.hpp>
 #include <tools/process/progress.hpp>

@@ -1,11 +1,11 @@
-#include <tools/commands/welded_mesh.hpp>
+#include <tools/commands/meshes/welded_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include <tools/commands/mesh_links.hpp>
+#include <tools/commands/meshes/mesh_links.hpp>
 #include <tools/patches/library_status.hpp>
 #include <tools/patches/pack_patches.hpp>
 #include <tools/patches/patch_box.hpp>

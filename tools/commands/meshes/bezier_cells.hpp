@@ -7,7 +7,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 #include <tools/commands/arguments.hpp>
-#include <tools/commands/mesh_stats.hpp>
+#include <tools/commands/meshes/mesh_stats.hpp>
 #include <tools/formats/patch_file.hpp>
 #include <tools/mesh_files/vtu_file.hpp>
 #include <tools/process/progress.hpp>

@@ -1,4 +1,4 @@
-#include <tools/commands/part_work.hpp>
+#include <tools/commands/meshes/part_work.hpp>
 
 #include <array>
 #include <charconv>
