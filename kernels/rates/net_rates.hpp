@@ -213,7 +213,8 @@ SIMDBEZIER_INLINE void rate_group(const detail::RateTask<T>& task, std::size_t f
       nv[p] = static_cast<T>(task.nv[patch]);
     }
   }
-  MaskOf<V> decided = is_usual_size<V>(group.size);
+  const MaskOf<V> sound = is_usual_size<V>(group.size);
+  MaskOf<V> decided = sound;
   CertifiedCells<V> found;
   if (task.choose) {
     const V limit = load_vector<V>(t);
@@ -228,7 +229,9 @@ SIMDBEZIER_INLINE void rate_group(const detail::RateTask<T>& task, std::size_t f
   decided = decided & !found.is_coarse(scratch, group, task.fewest_looked);
   store_vector<V>(nu, found.cells.nu);
   store_vector<V>(nv, found.cells.nv);
-  store_vector<V>(bound, select_where<V>(decided, found.bound, broadcast<V>(T(-1))));
+  const V undecided = select_where<V>(sound, broadcast<V>(T(detail::kSoundUndecided)),
+                                      broadcast<V>(T(detail::kDoubtfulUndecided)));
+  store_vector<V>(bound, select_where<V>(decided, found.bound, undecided));
   store_vector<V>(diagonals, found.diagonals);
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t patch = first + p;
@@ -240,7 +243,7 @@ SIMDBEZIER_INLINE void rate_group(const detail::RateTask<T>& task, std::size_t f
     task.diagonals[patch] = static_cast<std::uint16_t>(diagonals[p]);
     task.deviations[patch] =
         known ? static_cast<double>(bound[p]) * static_cast<double>(size[p]) + error_of(task, patch)
-              : -1;
+              : static_cast<double>(bound[p]);
   }
 }
 

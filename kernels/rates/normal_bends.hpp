@@ -23,8 +23,8 @@ SIMDBEZIER_INLINE SpaceVector<V> cubic_tangent(const SpaceVector<V>* p, std::siz
                       : (p[3 * step] - p[0]) + (p[2 * step] - p[step]);
 }
 
-/// What second derivatives along the normal tell of small cells, in the middles of quarters: the
-/// means of four of 3 x 3 samples. Samples without a normal have none.
+/// What second derivatives along the normal tell of small cells, in each quarter: the mean size of
+/// those in its corners, four of 3 x 3 samples. Samples without a normal have none.
 template <typename V>
 struct NormalBends {
   V distance; ///< of the triangles from the surface, about
@@ -64,20 +64,23 @@ SIMDBEZIER_KERNEL NormalBends<V> bends_of(const RateScratch<V>& scratch, const C
   V most = zero;
   for (std::size_t k = 0; k < 4; ++k) {
     const SecondTerms<V>* const corner = at + k % 2 + 3 * (k / 2);
-    const auto mean =
-        [&](V SecondTerms<V>::*term) SIMDBEZIER_INLINE_LAMBDA { // however it is turned
-          return (corner[0].*term + corner[4].*term) + (corner[1].*term + corner[3].*term);
-        };
-    const SecondTerms<V> bend{mean(&SecondTerms<V>::uu), mean(&SecondTerms<V>::uv),
-                              mean(&SecondTerms<V>::vv)};
-    const auto include = [](V& to, V term)
-                             SIMDBEZIER_INLINE_LAMBDA { to = larger_of<V>(to, size_of<V>(term)); };
-    include(largest.uu, bend.uu);
-    include(largest.uv, bend.uv);
-    include(largest.vv, bend.vv);
-    const V both = bend.uu * step.uu + bend.vv * step.vv;
-    const V mixed = bend.uv * step.uv;
-    include(most, smaller_of<V>(size_of<V>(both + mixed), size_of<V>(both - mixed)));
+    const auto mean = [&](const auto& of) SIMDBEZIER_INLINE_LAMBDA { // however it is turned
+      return (size_of<V>(of(corner[0])) + size_of<V>(of(corner[4]))) +
+             (size_of<V>(of(corner[1])) + size_of<V>(of(corner[3])));
+    };
+    using Bend = SecondTerms<V>;
+    const V uu = mean([](const Bend& b) SIMDBEZIER_INLINE_LAMBDA { return b.uu; });
+    const V uv = mean([](const Bend& b) SIMDBEZIER_INLINE_LAMBDA { return b.uv; });
+    const V vv = mean([](const Bend& b) SIMDBEZIER_INLINE_LAMBDA { return b.vv; });
+    largest = {larger_of<V>(largest.uu, uu), larger_of<V>(largest.uv, uv),
+               larger_of<V>(largest.vv, vv)};
+    const auto bend = [&](V mixed) SIMDBEZIER_INLINE_LAMBDA {
+      return mean([&](const Bend& b) SIMDBEZIER_INLINE_LAMBDA {
+        return (b.uu * step.uu + b.vv * step.vv) + b.uv * mixed;
+      });
+    };
+    const V zero_less = zero - step.uv;
+    most = larger_of<V>(most, smaller_of<V>(bend(step.uv), bend(zero_less)));
   }
   most = larger_of<V>(larger_of<V>(largest.uu * step.uu, largest.vv * step.vv), most);
   const V eighth = broadcast<V>(T(0.125));

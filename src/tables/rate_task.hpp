@@ -26,6 +26,9 @@ inline constexpr std::uint32_t kFewestLooked = 32;
 /// no tolerance is left, the kernel has found no cells that keep it, or its bound may be far above
 /// the distance.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
+/// Deviations of such patches: of those whose values are finite, and of those that may have others.
+inline constexpr double kSoundUndecided = -1;
+inline constexpr double kDoubtfulUndecided = -2;
 
 /// Certifies rates, given ones or those that the kernel chooses, for bicubic polynomial nets of
 /// three components. The scratch has kRateValues values.
@@ -41,7 +44,7 @@ struct RateTask {
   std::uint32_t* nu;    ///< from 1 to `most`, or kUndecided
   std::uint32_t* nv;
   std::uint16_t* diagonals; ///< of rates that are decided, as are deviations
-  double* deviations;       ///< -1 where undecided
+  double* deviations;       ///< one of the two values above where undecided
 };
 
 /// The scratch has so many values, as NetTable's other kernels count them: points, and the nets of

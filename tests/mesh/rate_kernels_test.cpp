@@ -221,7 +221,8 @@ TEST(RateKernels, a_patch_at_fault_is_named) {
   }
 }
 
-/// Kernels see it first, in any component of a point inside, beside patches without fault.
+/// Kernels see it first, in any component of a point inside, beside patches without fault, and even
+/// behind one that has no tolerance left.
 TEST(RateKernels, a_value_that_is_not_finite_is_named) {
   constexpr std::size_t kBad = 5;
   const Model<float> sound({3, 3, Weights::none});
@@ -236,9 +237,14 @@ TEST(RateKernels, a_value_that_is_not_finite_is_named) {
         RateOptions options;
         options.tolerance = 0.01;
         const RunOptions run{.isa = isa};
+        std::vector<double> errors(kPatches);
+        errors[kBad - 2] = 1;
+        RateOptions none_left = options;
+        none_left.errors = errors;
         Rated rated;
         for (const Report& report :
              {choose_rates(model.nets(), topology, options, rated.out(), run),
+              choose_rates(model.nets(), topology, none_left, rated.out(), run),
               certify_rates(model.nets(), topology, {}, Rated().out(), run)}) {
           EXPECT_EQ(report.status, Status::non_finite_input);
           EXPECT_EQ(report.item, kBad);

@@ -292,14 +292,15 @@ private:
     });
   }
 
-  /// Nets that a kernel has seen are looked at again only if it has left some undecided.
+  /// Nets that a kernel has seen are looked at again only if some of them may not be finite.
   Report find_faults() const {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : nets_) {
       const auto seen = deviations_.subspan(first, nets.count);
-      const bool decided = suits_kernel(nets) &&
-                           std::all_of(seen.begin(), seen.end(), [](double d) { return d >= 0; });
-      const Report checked = decided ? Report{} : find_fault(nets, run_.threads);
+      const bool sound = suits_kernel(nets) && std::all_of(seen.begin(), seen.end(), [](double d) {
+                           return d >= kSoundUndecided;
+                         });
+      const Report checked = sound ? Report{} : find_fault(nets, run_.threads);
       if (!checked) {
         return {checked.status, first + checked.item};
       }
