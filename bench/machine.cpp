@@ -7,7 +7,7 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/version.hpp>
 
-#include "bench/rows.hpp"
+#include "bench/rows/rows.hpp"
 #include "simdbezier_bench/build_facts.hpp"
 
 namespace simdbezier_bench {

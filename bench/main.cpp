@@ -11,8 +11,8 @@
 #include <simdbezier/options.hpp>
 
 #include "bench/machine.hpp"
-#include "bench/plugin_rows.hpp"
-#include "bench/rows.hpp"
+#include "bench/rows/plugin_rows.hpp"
+#include "bench/rows/rows.hpp"
 #include "src/choice/strategies.hpp"
 
 namespace simdbezier_bench {

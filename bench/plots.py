@@ -3,7 +3,7 @@
 
 usage: bench/plots.py RESULTS.json SWEEP.json [FOLDER]
 
-FOLDER (default: docs/) receives
+FOLDER (default: docs/pictures/) receives
   speed_by_size.svg  samples/s in cache against grid size (SWEEP.json: measure.py --sweep)
   roofline.svg       multiply-adds/s against multiply-adds per byte written, with the machine's
                      limits (RESULTS.json); multiply-adds as the library counts them
@@ -166,7 +166,7 @@ def main(arguments):
     if len(arguments) not in (2, 3):
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    folder = Path(arguments[2]) if len(arguments) == 3 else Path(__file__).parent.parent / "docs"
+    folder = Path(arguments[2]) if len(arguments) == 3 else Path(__file__).parent.parent / "docs" / "pictures"
     matplotlib.rcParams.update({"svg.hashsalt": "simdbezier", "svg.fonttype": "none",
                                 "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"]})
     (context, results), (sweep_context, sweep) = map(read, arguments[:2])

@@ -132,7 +132,7 @@ def offset_series(report):
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    folder = Path(__file__).resolve().parent
+    folder = Path(__file__).resolve().parent / "pictures"
     report = json.loads(Path(sys.argv[1]).read_text())
     chart(folder / "error_by_offset.svg", "Positions, float: RMS error far from the origin",
           "offset / size of the patch", "error / (u max|P|)", ("0", "1e3", "1e6"),

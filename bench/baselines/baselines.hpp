@@ -1,7 +1,7 @@
 // The two competitors, compiled once per instruction set.
 #pragma once
 
-#include "bench/job.hpp"
+#include "bench/subjects/job.hpp"
 
 namespace simdbezier_bench {
 

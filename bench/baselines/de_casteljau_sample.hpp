@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/baselines/cubic.hpp"
-#include "bench/job.hpp"
+#include "bench/subjects/job.hpp"
 
 namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {

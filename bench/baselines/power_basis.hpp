@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "bench/job.hpp"
+#include "bench/subjects/job.hpp"
 
 namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "bench/baselines/power_basis.hpp"
-#include "bench/job.hpp"
+#include "bench/subjects/job.hpp"
 
 namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {

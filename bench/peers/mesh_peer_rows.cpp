@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "bench/mesh_stages.hpp"
 #include "bench/peers/peers.hpp"
-#include "bench/rows.hpp"
+#include "bench/rows/mesh_stages.hpp"
+#include "bench/rows/rows.hpp"
 
 namespace simdbezier_bench {
 namespace {

@@ -7,10 +7,10 @@
 #include <simdbezier/options.hpp>
 
 #include "bench/peers/peers.hpp"
-#include "bench/place.hpp"
-#include "bench/reference.hpp"
-#include "bench/rows.hpp"
-#include "bench/shared_data.hpp"
+#include "bench/rows/rows.hpp"
+#include "bench/subjects/place.hpp"
+#include "bench/subjects/reference.hpp"
+#include "bench/subjects/shared_data.hpp"
 #include "simdbezier_bench/isa_list.hpp"
 
 namespace simdbezier_bench {

@@ -22,7 +22,7 @@ function(simdbezier_bench_peer name header)
     return()
   endif()
   set(peers_found ${peers_found} ${name} PARENT_SCOPE)
-  set_property(SOURCE peers/peer_rows.cpp peers/mesh_peer_rows.cpp spline_rows.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+  set_property(SOURCE peers/peer_rows.cpp peers/mesh_peer_rows.cpp rows/spline_rows.cpp APPEND PROPERTY COMPILE_DEFINITIONS
                                                          SIMDBEZIER_BENCH_WITH_${upper})
   if(name STREQUAL "eigen")
     set(eigen_include_dir ${SIMDBEZIER_${upper}_INCLUDE_DIR} PARENT_SCOPE)

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "bench/job.hpp"
+#include "bench/subjects/job.hpp"
 
 namespace simdbezier_bench {
 

@@ -6,8 +6,8 @@
 
 #include <simdbezier/evaluate.hpp>
 
+#include "python/src/arguments/wanted_outputs.hpp"
 #include "python/src/module.hpp"
-#include "python/src/wanted_outputs.hpp"
 
 namespace simdbezier::python {
 

@@ -5,7 +5,7 @@
 
 #include <tools/mesh_files/mesh_file.hpp>
 
-#include "python/src/calls.hpp"
+#include "python/src/arguments/calls.hpp"
 #include "python/src/mesh_files.hpp"
 #include "python/src/module.hpp"
 

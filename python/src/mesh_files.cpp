@@ -7,7 +7,7 @@
 #include <tools/mesh_files/mesh_file.hpp>
 #include <tools/process/failure.hpp>
 
-#include "python/src/arrays.hpp"
+#include "python/src/arguments/arrays.hpp"
 #include "python/src/module.hpp"
 
 namespace simdbezier::python {

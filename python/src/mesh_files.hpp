@@ -8,7 +8,7 @@
 
 #include <tools/mesh_files/mesh_file.hpp>
 
-#include "python/src/errors.hpp"
+#include "python/src/arguments/errors.hpp"
 
 namespace simdbezier::python {
 

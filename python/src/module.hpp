@@ -10,8 +10,8 @@
 #include <simdbezier/mesh.hpp>
 #include <simdbezier/patch_set.hpp>
 
-#include "python/src/arrays.hpp"
-#include "python/src/call_arguments.hpp"
+#include "python/src/arguments/arrays.hpp"
+#include "python/src/arguments/call_arguments.hpp"
 
 namespace simdbezier::python {
 

@@ -5,7 +5,7 @@
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/nets.hpp>
 
-#include "python/src/calls.hpp"
+#include "python/src/arguments/calls.hpp"
 #include "python/src/module.hpp"
 
 namespace simdbezier::python {

@@ -5,7 +5,7 @@
 
 #include <simdbezier/flatten.hpp>
 
-#include "python/src/calls.hpp"
+#include "python/src/arguments/calls.hpp"
 #include "python/src/py_set.hpp"
 #include "python/src/py_splines.hpp"
 

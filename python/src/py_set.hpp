@@ -14,9 +14,9 @@
 #include <simdbezier/evaluate.hpp>
 #include <simdbezier/options.hpp>
 
-#include "python/src/calls.hpp"
+#include "python/src/arguments/calls.hpp"
+#include "python/src/arguments/wanted_outputs.hpp"
 #include "python/src/module.hpp"
-#include "python/src/wanted_outputs.hpp"
 
 namespace simdbezier::python {
 

@@ -4,7 +4,7 @@
 
 #include <simdbezier/mesh.hpp>
 
-#include "python/src/calls.hpp"
+#include "python/src/arguments/calls.hpp"
 #include "python/src/py_splines.hpp"
 
 namespace simdbezier::python {

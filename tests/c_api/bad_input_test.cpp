@@ -2,8 +2,8 @@
 // written.
 #include <cmath>
 
-#include "tests/c_api/c_refusal.hpp"
-#include "tests/c_api/c_world.hpp"
+#include "tests/c_api/support/c_refusal.hpp"
+#include "tests/c_api/support/c_world.hpp"
 #include "tests/support/isas.hpp"
 
 namespace simdbezier::tests::bad_input_test {

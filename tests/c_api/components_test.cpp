@@ -1,5 +1,5 @@
 // The components of patches and curves that calls through simdbezier.h are asked for.
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::components_test {
 namespace {

@@ -1,5 +1,5 @@
 // Evaluations through simdbezier.h give the bits of the C++ calls.
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::evaluate_test {
 namespace {

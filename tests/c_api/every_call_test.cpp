@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "tests/c_api/every_call.hpp"
+#include "tests/c_api/support/every_call.hpp"
 #include "tests/support/long_form.hpp"
 
 namespace simdbezier::tests::every_call_test {

@@ -1,6 +1,6 @@
 // How simdbezier.h describes faults, how its structs grow, and its statuses.
-#include "tests/c_api/c_refusal.hpp"
-#include "tests/c_api/c_world.hpp"
+#include "tests/c_api/support/c_refusal.hpp"
+#include "tests/c_api/support/c_world.hpp"
 
 namespace simdbezier::tests::faults_test {
 namespace {

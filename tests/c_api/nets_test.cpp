@@ -1,7 +1,7 @@
 // Operations on nets through simdbezier.h give the values of the C++ calls.
 #include <functional>
 
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::nets_test {
 namespace {

@@ -1,7 +1,7 @@
 // Every option of topologies, rates and meshes does through simdbezier.h what it does in C++.
 #include <functional>
 
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::options_test {
 namespace {

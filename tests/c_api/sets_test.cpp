@@ -1,7 +1,7 @@
 // What sets of simdbezier.h say of themselves, and the helpers that describe memory for them.
 #include <set>
 
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::sets_test {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/c_api/c_refusal.hpp"
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_refusal.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::splines_test {
 namespace {

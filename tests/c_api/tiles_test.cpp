@@ -1,6 +1,6 @@
 // What a tile function is handed through simdbezier.h is what a C++ one is handed, to the last
 // member.
-#include "tests/c_api/c_values.hpp"
+#include "tests/c_api/support/c_values.hpp"
 
 namespace simdbezier::tests::tiles_test {
 namespace {

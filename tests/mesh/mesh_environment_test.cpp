@@ -12,7 +12,7 @@
 #include <simdbezier/mesh.hpp>
 #include <simdbezier/mesh_layout.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/hash.hpp"
 #include "tests/support/isa_fixture.hpp"

@@ -8,9 +8,9 @@
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/topology.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
-#include "tests/mesh/random_gluing.hpp"
-#include "tests/mesh/triangle_census.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
+#include "tests/mesh/support/random_gluing.hpp"
+#include "tests/mesh/support/triangle_census.hpp"
 
 namespace simdbezier::tests::mesh_layout_test {
 namespace {

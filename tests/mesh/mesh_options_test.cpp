@@ -8,8 +8,8 @@
 
 #include <simdbezier/mesh.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
-#include "tests/mesh/mesh_oracle.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
+#include "tests/mesh/support/mesh_oracle.hpp"
 #include "tests/support/isas.hpp"
 #include "tests/support/random.hpp"
 

@@ -9,8 +9,8 @@
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/simdbezier.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
-#include "tests/mesh/random_gluing.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
+#include "tests/mesh/support/random_gluing.hpp"
 
 namespace simdbezier::tests::mesh_parts_test {
 namespace {

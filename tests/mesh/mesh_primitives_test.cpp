@@ -7,7 +7,7 @@
 
 #include <simdbezier/mesh_layout.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
 
 namespace simdbezier::tests::mesh_primitives_test {
 namespace {

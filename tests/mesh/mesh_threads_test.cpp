@@ -10,8 +10,8 @@
 
 #include "src/mesh/layout/mesh_data.hpp"
 #include "src/mesh/topology/topology_data.hpp"
-#include "tests/mesh/mesh_models.hpp"
-#include "tests/mesh/random_gluing.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
+#include "tests/mesh/support/random_gluing.hpp"
 
 namespace simdbezier::tests::mesh_threads_test {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/mesh/evaluated_mesh.hpp"
-#include "tests/mesh/mesh_oracle.hpp"
+#include "tests/mesh/support/evaluated_mesh.hpp"
+#include "tests/mesh/support/mesh_oracle.hpp"
 
 namespace simdbezier::tests::patch_order_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <simdbezier/mesh.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/support/mesh_models.hpp"
 
 namespace simdbezier::tests::plan_again_test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <simdbezier/mesh.hpp>
 
-#include "tests/mesh/dense_deviation.hpp"
-#include "tests/mesh/triangle_census.hpp"
+#include "tests/mesh/support/dense_deviation.hpp"
+#include "tests/mesh/support/triangle_census.hpp"
 #include "tests/support/long_form.hpp"
 #include "tests/support/nets/data_files.hpp"
 

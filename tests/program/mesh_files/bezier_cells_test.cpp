@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "tests/program/formats/format_files.hpp"
-#include "tests/program/mesh_files/mesh_readers.hpp"
-#include "tests/program/mesh_files/read_meshes.hpp"
+#include "tests/program/mesh_files/readers/mesh_readers.hpp"
+#include "tests/program/mesh_files/readers/read_meshes.hpp"
 #include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests::bezier_cells_test {

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "tests/program/mesh_files/mesh_readers.hpp"
+#include "tests/program/mesh_files/readers/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
 
 namespace simdbezier::tests::mesh_file_test {

@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "tests/program/formats/sample_nets.hpp"
-#include "tests/program/mesh_files/read_meshes.hpp"
+#include "tests/program/mesh_files/readers/read_meshes.hpp"
 
 namespace simdbezier::tests::mesh_output_test {
 namespace {

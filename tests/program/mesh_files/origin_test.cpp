@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/program/formats/sample_nets.hpp"
-#include "tests/program/mesh_files/read_meshes.hpp"
+#include "tests/program/mesh_files/readers/read_meshes.hpp"
 
 namespace simdbezier::tests::origin_test {
 namespace {

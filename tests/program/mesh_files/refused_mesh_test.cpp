@@ -8,7 +8,7 @@
 
 #include <tools/process/failure.hpp>
 
-#include "tests/program/mesh_files/mesh_readers.hpp"
+#include "tests/program/mesh_files/readers/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
 #include "tests/program/process/program.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "tests/program/formats/sample_nets.hpp"
-#include "tests/program/mesh_files/read_meshes.hpp"
+#include "tests/program/mesh_files/readers/read_meshes.hpp"
 
 namespace simdbezier::tests::repeated_patches_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "tests/program/formats/sample_nets.hpp"
-#include "tests/program/mesh_files/mesh_readers.hpp"
+#include "tests/program/mesh_files/readers/mesh_readers.hpp"
 #include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests::unwelded_test {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/program/formats/sample_nets.hpp"
-#include "tests/program/mesh_files/mesh_readers.hpp"
-#include "tests/program/mesh_files/read_meshes.hpp"
+#include "tests/program/mesh_files/readers/mesh_readers.hpp"
+#include "tests/program/mesh_files/readers/read_meshes.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
 #include "tests/program/process/program.hpp"
 

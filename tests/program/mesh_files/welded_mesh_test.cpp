@@ -8,7 +8,7 @@
 
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/formats/sample_nets.hpp"
-#include "tests/program/mesh_files/read_meshes.hpp"
+#include "tests/program/mesh_files/readers/read_meshes.hpp"
 
 namespace simdbezier::tests::welded_mesh_test {
 namespace {

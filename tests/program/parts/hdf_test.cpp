@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/program/mesh_files/mesh_readers.hpp"
+#include "tests/program/mesh_files/readers/mesh_readers.hpp"
 #include "tests/program/parts/mpi_ranks.hpp"
 #include "tests/program/parts/part_models.hpp"
 #include "tests/program/process/program.hpp"

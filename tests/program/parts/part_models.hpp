@@ -8,7 +8,7 @@
 
 #include <tools/process/output_file.hpp>
 
-#include "tests/mesh/random_gluing.hpp"
+#include "tests/mesh/support/random_gluing.hpp"
 #include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests {
