@@ -80,8 +80,9 @@ Outputs<T> make_room(SurfaceSamples<T>& samples, const OutputSelection& wanted, 
 
 } // namespace detail
 
-/// Evaluates patches of three components, as evaluate(set, where, out, options) does, and returns
-/// its statuses. where: a Grid<T>, PatchGrids or Samples<T>.
+/// Evaluates patches as evaluate(set, where, out, options) does, and returns its statuses. Patches
+/// of one or two components are bad_components; of more than three, positions and derivatives are
+/// the first three. where: a Grid<T>, PatchGrids or Samples<T>.
 template <typename T, typename Where>
 [[nodiscard]] SurfaceSamples<T> evaluate(const PatchSet<T>& set, const Where& where,
                                          const OutputSelection& wanted,
