@@ -5,10 +5,10 @@ set -euo pipefail
 build=${1:?usage: bench/demo.sh BUILD_DIR}
 isa=$("$build/simdbezier" info builtin:teapot --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["instruction_sets"]["chosen"])')
 report=$(mktemp)
-trap 'rm -f "$report"' EXIT
+trap 'rm -f "$report" "$report.log"' EXIT
 "$build/simdbezier_bench" --benchmark_filter="^grid/position(_normal)?/f32/($isa|de_casteljau)/16x16/cache/threads:1\$" \
   --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.1 \
-  --benchmark_out="$report" --benchmark_out_format=json >/dev/null 2>&1
+  --benchmark_out="$report" --benchmark_out_format=json >"$report.log" 2>&1 || { cat "$report.log" >&2; exit 1; }
 python3 - "$report" "$isa" <<'PYTHON'
 import json, statistics, sys
 

@@ -224,6 +224,13 @@ def main():
         print(f"measure.py: --filter: no {'' if options.all else 'published '}row's name matches "
               f"'{options.filter.pattern}'", file=sys.stderr)
         return 1
+    if options.rounds < 1:
+        sys.exit(f"measure.py: --rounds: expected 1 or more, found {options.rounds}")
+    if options.core not in os.sched_getaffinity(0):
+        sys.exit(f"measure.py: --core: this process may not use core {options.core}")
+    folder = os.path.dirname(os.path.abspath(options.out))
+    if not os.access(folder, os.W_OK):  # now, and not after a quarter of an hour
+        sys.exit(f"measure.py: {folder}: expected a folder that can be written to")
     context, values, of_limit = {}, {}, {}
     for number, rows in enumerate(itertools.chain.from_iterable([plan] * options.rounds), 1):
         print(f"{number}/{len(plan) * options.rounds}: {rows[0]} and {len(rows) - 1} more",
@@ -240,6 +247,8 @@ def main():
     missing = [name for name in chosen if name not in values]
     for name in missing:
         print(f"measure.py: no result: {name}", file=sys.stderr)
+    if not values:  # what a file has from before is better than nothing
+        return 1
     kept = ("date", "cpu", "cores", "caches", "compiler", "flags", "baseline_flags",
             "isas", "isa", "evaluators")
     write(options.out, {key: context[key] for key in kept if key in context},

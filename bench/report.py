@@ -145,12 +145,12 @@ def main():
             body += speed(path, colours)
         if arguments.accuracy:
             body += accuracy(arguments.accuracy, colours)
-    except (OSError, ValueError, KeyError) as error:
-        sys.exit(f'report.py: {error}')
-    arguments.output.write_text(
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f'<title>Bézier patch evaluators</title><style>{STYLE}</style></head><body>{body}</body>'
-        '</html>\n', encoding='utf-8')
+        arguments.output.write_text(
+            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            f'<title>Bézier patch evaluators</title><style>{STYLE}</style></head><body>{body}</body>'
+            '</html>\n', encoding='utf-8')
+    except (AttributeError, OSError, ValueError, KeyError, TypeError) as error:
+        sys.exit(f'report.py: {error!r}')
 
 
 if __name__ == '__main__':

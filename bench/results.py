@@ -84,6 +84,8 @@ class Name:
 
     def __init__(self, text):
         parts = text.split("/")
+        if len(parts) < 7:
+            raise ValueError(f"{text}: expected a row of simdbezier_bench")
         self.call, self.outputs, self.type, self.who, self.size, self.place = parts[:6]
         self.keys = dict(part.split(":", 1) for part in parts[6:])
         self.threads = int(self.keys.pop("threads"))

@@ -43,8 +43,9 @@ class Results:
     def __init__(self, name):
         self.name = name
         context, self.rows = read(ROOT / "bench" / "results" / f"{name}.json")
-        self.next_isa, self.isa = context["isas"].split()[-2:]
-        self.kinds = (("f32", self.isa), ("f32", self.next_isa), ("f64", self.isa))
+        isas = context["isas"].split()  # one in a build for one machine alone
+        self.next_isa, self.isa = isas[-2:] if len(isas) > 1 else isas * 2
+        self.kinds = tuple(dict.fromkeys((("f32", self.isa), ("f32", self.next_isa), ("f64", self.isa))))
 
     def rate(self, name):
         """Items a second; None where that was not measured."""
@@ -60,6 +61,8 @@ class Results:
         """Samples a second, by the arithmetic of rows in pairs or by stores to the cache, whichever
         allows less; every vector of a sample counts as a position."""
         pairs, fill = self.rate(f"limit/pairs_store/{kind}/{isa}"), self.rate("limit/fill_cache")
+        if not pairs or not fill:
+            return None
         positions = min(pairs, fill if kind == "f32" else fill / 2)
         return positions / (VALUES[outputs] / VALUES["position"])
 
@@ -140,7 +143,8 @@ def cache(results):
 
     def share(own, place):
         items = results.rate(own)
-        return items and items / results.limit_in_cache(*place[:3])
+        limit = results.limit_in_cache(*place[:3])
+        return items / limit if items and limit else None
 
     measures = (("10⁹ samples/s", rate, ".2f"),
                 ("ratio to scalar de Casteljau", ratio_to("de_casteljau"), ".0f"),

@@ -18,7 +18,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfig.cmake
         DESTINATION ${package_dir}
         COMPONENT dev)
 
-# A static library hands its threads' runtime on to whoever links it; a shared one does not.
+# A static library hands C++'s and its threads' runtime on to whoever links it; a shared one does not.
 set(pc_libs_private "")
 set(pc_cflags "")
 if(simdbezier_type STREQUAL "STATIC_LIBRARY")
@@ -29,6 +29,14 @@ if(simdbezier_type STREQUAL "STATIC_LIBRARY")
     endforeach()
   elseif(SIMDBEZIER_THREADS STREQUAL "std")
     set(pc_libs_private " -pthread")
+  endif()
+  foreach(name IN ITEMS stdc++ c++) # a C program's linker adds neither
+    if(name IN_LIST CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
+      string(APPEND pc_libs_private " -l${name}")
+    endif()
+  endforeach()
+  if("m" IN_LIST CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
+    string(APPEND pc_libs_private " -lm")
   endif()
 endif()
 # Relative to the file itself, so that `cmake --install --prefix` and moved trees work.

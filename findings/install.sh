@@ -8,7 +8,7 @@ cd "$folder"
 
 # npm_packages NAME@VERSION…
 npm_packages() {
-  npm install --no-audit --no-fund --loglevel=error "$@" >/dev/null
+  npm install --no-audit --no-fund --loglevel=error "$@" >/dev/null || exit 2
   printf 'version: %s\n' "$@"
 }
 
@@ -19,11 +19,11 @@ debian_packages() {
   shift
   mkdir -p archives/partial
   apt-get -qq -o Debug::NoLocking=1 -o Dir::Cache::archives="$folder/archives" install --download-only \
-    --reinstall --yes --no-install-recommends "$@" >/dev/null
+    --reinstall --yes --no-install-recommends "$@" >/dev/null || exit 2
   for name in archives/*.deb; do dpkg -x "$name" .; done
   name=$(dpkg-deb -W archives/"$1"_*.deb)
   echo "version: Debian's $name"
-  [[ $name == *$'\t'"$version"* ]] || { echo "this was found with version $version" >&2; exit 1; }
+  [[ $name == *$'\t'"$version"* ]] || { echo "this was found with version $version" >&2; exit 2; }
 }
 
 # expect TEXT FOUND WANTED: the behaviour, and whether it is as it was found.

@@ -9,6 +9,7 @@ library is linked statically: the wheel needs a C++ and an OpenMP runtime of the
 """
 import base64
 import hashlib
+import io
 import os
 import pathlib
 import re
@@ -128,9 +129,14 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 def build_sdist(sdist_directory, config_settings=None):
     """The hook for source archives: what git knows."""
     name = f'simdbezier-{version()}'
-    listed = subprocess.run(['git', '-C', ROOT, 'ls-files', '-z'], check=True,
-                            stdout=subprocess.PIPE).stdout.decode().split('\0')
+    git = subprocess.run(['git', '-C', ROOT, 'ls-files', '-z'], check=False, stdout=subprocess.PIPE)
+    if git.returncode != 0:
+        sys.exit(f'{ROOT} is no clone: git says what belongs to a source archive')
+    listed = git.stdout.decode().split('\0')
     with tarfile.open(pathlib.Path(sdist_directory, f'{name}.tar.gz'), 'w:gz') as archive:
         for path in filter(None, listed):
             archive.add(ROOT / path, f'{name}/{path}')
+        entry, data = tarfile.TarInfo(f'{name}/PKG-INFO'), metadata().encode()
+        entry.size = len(data)
+        archive.addfile(entry, io.BytesIO(data))
     return f'{name}.tar.gz'

@@ -44,6 +44,23 @@ def check_measured():
     expect(run(1, 'measure.py', f'--evaluator={FOLDER}/missing.so', BENCH, results), 'missing.so')
 
 
+def check_refused():
+    """What cannot be measured or read is said in one line, and results from before stay."""
+    results = FOLDER / 'measured.json'
+    before = results.read_bytes()
+    for arguments, words in ((('--rounds=0', BENCH, results), '--rounds: expected 1 or more'),
+                             (('--core=9999', BENCH, results), '--core: this process may not'),
+                             ((BENCH, FOLDER / 'missing' / 'results.json'), 'expected a folder')):
+        expect(run(1, 'measure.py', *arguments), words)
+    if results.read_bytes() != before:
+        sys.exit('measure.py: a run without results has changed a file')
+    listed = FOLDER / 'list.json'
+    listed.write_text('[]', encoding='utf-8')
+    found = run(1, 'report.py', '-o', FOLDER / 'report.html', '--speed', listed)
+    if not found.startswith('report.py: ') or found.count('\n') != 1:
+        sys.exit(f'report.py: expected one line, found {found}')
+
+
 def made_up():
     """Rows whose ratios are known, as measure.py writes them."""
     rows = {'grid/position/f32': {}, 'limit/fma/f32': {'avx2': [400000, 1, 3]}}
@@ -73,4 +90,5 @@ def check_drawn():
 
 
 check_measured()
+check_refused()
 check_drawn()

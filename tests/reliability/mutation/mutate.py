@@ -221,12 +221,14 @@ def planted_mutations():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument('count', type=int, nargs='?', default=10)
+    parser.add_argument('count', type=int, nargs='?')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--after', type=int, default=0)
     parser.add_argument('--planted', action='store_true')
     parser.add_argument('--check', action='store_true')
     arguments = parser.parse_args()
+    if arguments.count is None and not (arguments.planted or arguments.check):
+        parser.error('expected a number of mutations, --planted or --check')
     planted = planted_mutations()
     if arguments.check:
         print(f'{len(planted)} planted faults have their places')
