@@ -177,26 +177,18 @@ struct ColumnTile {
 
   /// Returns the positions on the edge `edge`, or on both where they share a register, and du.
   SIMDBEZIER_PART V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
-    if constexpr (!kShared) {
-      return edge_position(c, column, edge, du);
-    } else {
-      V k[kOrder];
-      shared_edges(c, k);
-      return finish(c, row_value(k, RowPoint<V>(column.x), du));
-    }
+    V k[kOrder];
+    edge_powers(c, edge, k);
+    return finish(c, edge, row_value(k, column.along(), du));
   }
   SIMDBEZIER_PART V edge_rows(const Component<T>& c, std::size_t edge) const {
     V du; // takes no instruction where nothing reads it
     return edge_rows(c, edge, du);
   }
   SIMDBEZIER_PART V edge_rows_second(const Component<T>& c, std::size_t edge) const {
-    if constexpr (!kShared) {
-      return edge_second(c, column, edge);
-    } else {
-      V k[kOrder];
-      shared_edges(c, k);
-      return row_second(k, RowPoint<V>(column.x));
-    }
+    V k[kOrder];
+    edge_powers(c, edge, k);
+    return row_second(k, column.along());
   }
   /// Returns the Y of these edges.
   static SIMDBEZIER_PART V edge_y(std::size_t edge) {
@@ -219,17 +211,32 @@ private:
   /// Returns `active`, as a constant where all columns exist.
   SIMDBEZIER_PART std::size_t columns() const { return kWhole ? kColumns : active; }
 
-  static SIMDBEZIER_PART void shared_edges(const Component<T>& c, V k[kOrder]) {
+  /// Returns the edge's one of a pair of values, or both where the edges share a register.
+  static SIMDBEZIER_INLINE V on_edges(const T* pair, std::size_t edge) {
+    if constexpr (kShared) {
+      return RowGroups<2, V>::spread(pair);
+    }
+    return broadcast<V>(pair[edge]);
+  }
+  static SIMDBEZIER_INLINE void edge_powers(const Component<T>& c, std::size_t edge, V k[kOrder]) {
+    if constexpr (!kShared) {
+      return edge_cubic(c, edge, k);
+    }
     for (std::size_t i = 0; i < kOrder; ++i) {
-      k[i] = RowGroups<2, V>::spread(c.edge + i * kEdges + detail::kEdgeV0);
+      k[i] = on_edges(c.edge + i * kEdges + detail::kEdgeV0, edge);
     }
   }
-  SIMDBEZIER_PART V finish(const Component<T>& c, V value) const {
+  /// Turns values of the edges' cubics into positions: the origin is added, and corners are as
+  /// stored.
+  SIMDBEZIER_INLINE V finish(const Component<T>& c, std::size_t edge, V value) const {
     if (c.origins != nullptr) [[unlikely]] {
-      constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeV0;
-      value = value + RowGroups<2, V>::spread(c.origin() + kAt);
+      value = value + on_edges(c.origin() + detail::kEdgeOriginsAt + detail::kEdgeV0, edge);
     }
-    return corners.replace(value, c.corner);
+    if constexpr (kShared) {
+      return corners.replace(value, c.corner);
+    } else {
+      return column.replace(value, c.corner + detail::corner_index(0, edge));
+    }
   }
 };
 

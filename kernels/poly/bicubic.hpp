@@ -179,8 +179,7 @@ struct SecondColumns {
     replace_edge_columns(c, column, q);
   }
 
-  /// These are for samples away from the edges v = 0 and 1, where duu comes from the edge:
-  /// edge_second().
+  /// These are for samples away from the edges v = 0 and 1, where duu comes from the edge.
   SIMDBEZIER_INLINE Parts<V> duu_parts(const RowPoint<V>& at) const { return value_parts(ddq, at); }
   SIMDBEZIER_INLINE Parts<V> duv_parts(const RowPoint<V>& at) const { return slope_parts(dq, at); }
   /// Returns the parts of half of dvv, which is doubled last.
@@ -227,35 +226,6 @@ SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t e
   for (std::size_t i = 0; i < kOrder; ++i) {
     k[i] = broadcast<V>(from[i * kEdges]);
   }
-}
-
-/// Turns the value of the edge's cubic into the position: the origin is added, and corners are as
-/// stored.
-template <typename V, bool kTurns>
-SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
-                                  std::size_t edge, V value) {
-  if (c.origins != nullptr) [[unlikely]] {
-    value = value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
-  }
-  return column.replace(value, c.corner + detail::corner_index(0, edge));
-}
-
-/// Returns the position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1), and du.
-template <typename V, bool kTurns>
-SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
-                                  std::size_t edge, V& du) {
-  V k[kOrder];
-  edge_cubic(c, edge, k);
-  return finished_edge(c, column, edge, row_value(k, column.along(), du));
-}
-
-/// Returns d2S/du2 on the edge v = 0 or 1.
-template <typename V, bool kTurns>
-SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V, kTurns>& column,
-                                std::size_t edge) {
-  V k[kOrder];
-  edge_cubic(c, edge, k);
-  return row_second(k, column.along());
 }
 
 /// Finds N = du x dv and returns |N|^2.
