@@ -56,27 +56,13 @@ private:
                 curve_values_, count_);
   }
 
-  /// Forms the weights of both cells, which the components need.
+  /// Packs the weights, which the components need.
   void pack_weights() {
-    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
-      W* const w = cell_weights_[cell];
-      for (std::size_t i = 0; i < order_; ++i) {
-        w[i] = carried<W>(weights_[i]);
-      }
-      take_cell(w, cell);
-      end_weights_[cell][0] = to_wide(w[0]);
-      end_weights_[cell][1] = to_wide(w[order_ - 1]);
-      centre(w, 1, order_ - 1);
-      for (std::size_t k = 0; k < order_; ++k) {
-        put_value(cell, components_, k, to_wide(w[k]));
-      }
-      for (std::size_t end = 0; end < 2; ++end) {
-        put_value(cell, components_, shape_.ends_at() + end, end_weights_[cell][end]);
-      }
-      if (shape_.origins) {
-        put_value(cell, components_, shape_.origin_at(), Wide(0.0));
-      }
+    W control[detail::kMostOrder];
+    for (std::size_t i = 0; i < order_; ++i) {
+      control[i] = carried<W>(weights_[i]);
     }
+    pack_channel(components_, control, nullptr);
   }
 
   SIMDBEZIER_INLINE void take_cell(W* values, std::size_t cell) const {
@@ -93,27 +79,38 @@ private:
     sizes.add(control, points, order_);
     floor.add(points);
     const Wide outer[2] = {points[0], points[order_ - 1]};
+    pack_channel(c, control, outer);
+  }
+
+  /// Packs all cells of a component, whose curves end at the points `outer`, or of the weight, for
+  /// which outer is null.
+  void pack_channel(std::size_t channel, const W* control, const Wide* outer) {
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
-      W values[detail::kMostOrder];
+      W component[detail::kMostOrder];
+      W* const values = outer == nullptr ? cell_weights_[cell] : component;
       for (std::size_t i = 0; i < order_; ++i) {
         values[i] = control[i];
       }
       take_cell(values, cell);
       for (std::size_t end = 0; end < 2; ++end) {
-        const bool given = shape_.cells() == 1 || end == cell;
-        const Wide inner = to_wide(values[end * (order_ - 1)]);
-        const Wide point = given             ? outer[end]
-                           : shape_.rational ? divide(inner, end_weights_[cell][end])
-                                             : inner;
-        put_value(cell, c, shape_.ends_at() + end, point);
+        Wide value = to_wide(values[end * (order_ - 1)]);
+        if (outer == nullptr) {
+          end_weights_[cell][end] = value;
+        } else if (shape_.cells() == 1 || end == cell) {
+          value = outer[end];
+        } else if (shape_.rational) {
+          value = divide(value, end_weights_[cell][end]);
+        }
+        put_value(cell, channel, shape_.ends_at() + end, value);
       }
       centre(values, 1, order_ - 1);
       if (shape_.origins) {
         const W* const weights = shape_.rational ? cell_weights_[cell] : nullptr;
-        put_value(cell, c, shape_.origin_at(), split_origin<T>(values, weights, order_, 1));
+        put_value(cell, channel, shape_.origin_at(),
+                  outer == nullptr ? Wide(0.0) : split_origin<T>(values, weights, order_, 1));
       }
       for (std::size_t k = 0; k < order_; ++k) {
-        put_value(cell, c, k, to_wide(values[k]));
+        put_value(cell, channel, k, to_wide(values[k]));
       }
     }
   }
