@@ -65,39 +65,31 @@ class PairSelector : public TwoMasks<V> {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 // This is one load of the pair into all lanes and one masked in-lane permute: half of the work of
 // two masked broadcasts, which matters where every sixth sample is on an edge.
-template <>
-class PairSelector<vec<float>> {
+template <typename T>
+class PairSelector<xsimd::batch<T, SIMDBEZIER_ARCH>> {
+  using V = vec<T>;
+  using Lanes = typename MaskOf<V>::register_type;
+
 public:
-  SIMDBEZIER_INLINE PairSelector(MaskOf<vec<float>> first, MaskOf<vec<float>> second)
-      : lanes_(static_cast<__mmask16>(__mmask16(first) | __mmask16(second))),
-        index_(_mm512_maskz_set1_epi32(__mmask16(second), 1)) {}
+  SIMDBEZIER_INLINE PairSelector(MaskOf<V> first, MaskOf<V> second)
+      : lanes_(static_cast<Lanes>(Lanes(first) | Lanes(second))),
+        index_(sizeof(T) == 4 ? _mm512_maskz_set1_epi32(__mmask16(second), 1)
+                              : _mm512_maskz_set1_epi64(__mmask8(second), 2)) {}
   SIMDBEZIER_INLINE bool worthwhile() const { return true; }
-  SIMDBEZIER_INLINE vec<float> replace(vec<float> inside, const float* pair) const {
-    double both;
-    __builtin_memcpy(&both, pair, sizeof(both));
-    const __m512 pairs = _mm512_castpd_ps(_mm512_set1_pd(both));
-    return vec<float>(_mm512_mask_permutevar_ps(inside, lanes_, pairs, index_));
+  SIMDBEZIER_INLINE V replace(V inside, const T* pair) const {
+    if constexpr (sizeof(T) == 4) {
+      double both;
+      __builtin_memcpy(&both, pair, sizeof(both));
+      const __m512 pairs = _mm512_castpd_ps(_mm512_set1_pd(both));
+      return V(_mm512_mask_permutevar_ps(inside, lanes_, pairs, index_));
+    } else {
+      const __m512d pairs = _mm512_broadcast_f64x2(_mm_loadu_pd(pair));
+      return V(_mm512_mask_permutevar_pd(inside, lanes_, pairs, index_));
+    }
   }
 
 private:
-  __mmask16 lanes_;
-  __m512i index_;
-};
-
-template <>
-class PairSelector<vec<double>> {
-public:
-  SIMDBEZIER_INLINE PairSelector(MaskOf<vec<double>> first, MaskOf<vec<double>> second)
-      : lanes_(static_cast<__mmask8>(__mmask8(first) | __mmask8(second))),
-        index_(_mm512_maskz_set1_epi64(__mmask8(second), 2)) {}
-  SIMDBEZIER_INLINE bool worthwhile() const { return true; }
-  SIMDBEZIER_INLINE vec<double> replace(vec<double> inside, const double* pair) const {
-    const __m512d pairs = _mm512_broadcast_f64x2(_mm_loadu_pd(pair));
-    return vec<double>(_mm512_mask_permutevar_pd(inside, lanes_, pairs, index_));
-  }
-
-private:
-  __mmask8 lanes_;
+  Lanes lanes_;
   __m512i index_;
 };
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
