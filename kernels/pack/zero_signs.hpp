@@ -12,7 +12,6 @@
 // It is done for all instruction sets, since a packed set does not know which one evaluates it.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 
 #include "kernels/pack/double_double.hpp"
@@ -39,46 +38,32 @@ constexpr int degree_along(const detail::NetShape& shape, std::size_t edge) {
 template <typename T>
 class TinyEvenCoefficients {
 public:
-  /// Looks at the even coefficients of an edge, as `at(k)` gives them, before they are rounded.
-  template <typename At>
-  SIMDBEZIER_INLINE void look_at(int degree, const At& at) {
-    if (detail::is_even_odd(degree)) {
-      compare(at(2), kSafeSecond<T>);
-      if (degree > 3) {
-        compare(at(4), kSafeFourth<T>);
-      }
-    }
-  }
-  /// Looks at the edges of one channel, [power][edge].
+  /// Looks at the even coefficients of the edges of one channel, [power][edge], before they are
+  /// rounded.
   template <typename W>
   SIMDBEZIER_INLINE void look_at_edges(const detail::NetShape& shape, const W* edges) {
     for (std::size_t e = 0; e < detail::kEdges; ++e) {
-      look_at(degree_along(shape, e), [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-        return to_wide(edges[k * detail::kEdges + e]);
-      });
+      const int degree = degree_along(shape, e);
+      if (detail::is_even_odd(degree)) {
+        compare(to_wide(edges[2 * detail::kEdges + e]), kSafeSecond<T>);
+        if (degree > 3) {
+          compare(to_wide(edges[4 * detail::kEdges + e]), kSafeFourth<T>);
+        }
+      }
     }
   }
-  [[nodiscard]] SIMDBEZIER_INLINE bool any() const {
-    return found_ || any_of<Wide>(least_ < Wide(0.0));
-  }
+  [[nodiscard]] SIMDBEZIER_INLINE bool any() const { return any_of<Wide>(least_ < Wide(0.0)); }
 
 private:
   /// Whether -safe < c < 0, in as few operations as there are for it.
-  template <typename V>
-  SIMDBEZIER_INLINE void compare(V c, double safe) {
-    if constexpr (kIsScalar<V>) { // as integers, whose units are idle here
-      const auto above_zero = __builtin_bit_cast(std::uint64_t, c) - kNegativeZero - 1;
-      found_ = found_ | (above_zero < __builtin_bit_cast(std::uint64_t, safe) - 1);
-    } else { // c (c + safe) is negative; the factor keeps what is not zero in T from becoming zero
-      const Wide from_safe = c + Wide(safe);
-      const Wide size = sizeof(T) == sizeof(float) ? c : c * Wide(0x1p1000);
-      least_ = smaller_of<Wide>(size * from_safe, least_);
-    }
+  SIMDBEZIER_INLINE void compare(Wide c, double safe) {
+    // c (c + safe) is negative; the factor keeps what is not zero in T from becoming zero
+    const Wide from_safe = c + Wide(safe);
+    const Wide size = sizeof(T) == sizeof(float) ? c : c * Wide(0x1p1000);
+    least_ = smaller_of<Wide>(size * from_safe, least_);
   }
 
-  static constexpr std::uint64_t kNegativeZero = std::uint64_t{1} << 63;
-  Wide least_ = Wide(0.0); ///< of registers
-  bool found_ = false;     ///< of single values
+  Wide least_ = Wide(0.0);
 };
 
 /// Changes the constant of one edge or curve where it has to be. Its packed coefficients are c[k *
