@@ -72,24 +72,16 @@ SIMDBEZIER_INLINE Wide load_each(const T* const from[kWideLanes], std::ptrdiff_t
 /// Loads values[k], lane p = from[p * stride + k].
 SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
                                        Wide values[kTransposed]) {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  for (int half = 0; half < 2; ++half) {
-    __m256 r[4];
-    for (int p = 0; p < 4; ++p) {
-      const float* const at = from + 4 * half + p * stride;
-      r[p] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at)),
-                                  _mm_loadu_ps(at + 4 * stride), 1);
-    }
-    transpose_quads<float>(r);
-    for (int i = 0; i < 4; ++i) {
-      values[4 * half + i] = widened(r[i]);
-    }
-  }
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
   for (int k = 0; k < 8; k += 4) {
-    __m128 r[4];
+    decltype(narrowed(Wide())) r[4];
     for (int p = 0; p < 4; ++p) {
-      r[p] = _mm_loadu_ps(from + k + p * stride);
+      const float* const at = from + k + p * stride;
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+      r[p] = _mm256_loadu2_m128(at + 4 * stride, at);
+#else
+      r[p] = _mm_loadu_ps(at);
+#endif
     }
     transpose_quads<float>(r);
     for (int i = 0; i < 4; ++i) {
