@@ -72,12 +72,6 @@ SIMDBEZIER_PART std::size_t band_registers(std::size_t nu) {
   return (nu + kLanes<V> - 1) / kLanes<V>;
 }
 
-/// Whether a single column is left behind two whole registers or more.
-template <typename V>
-SIMDBEZIER_PART bool has_single_column(std::size_t nu) {
-  return nu > 2 * kLanes<V> && nu % kLanes<V> == 1;
-}
-
 /// Whether bands are faster than tiles. In staging, samples are passed on in smaller portions tile
 /// by tile.
 template <detail::OutputSet kOutputs, typename T>

@@ -174,7 +174,7 @@ template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_bands(const GridTask<T>& task, const RowPiece<T>& piece,
                                  std::size_t patch, std::size_t last_patch) {
   constexpr std::size_t kL = kLanes<vec<T>>;
-  const bool single = has_single_column<vec<T>>(task.nu);
+  const bool single = task.nu > 2 * kL && task.nu % kL == 1; // behind whole registers
   const std::size_t columns = single ? task.nu - 1 : task.nu;
   std::size_t left = band_registers<vec<T>>(columns);
   for (std::size_t first = 0; left > 0;) {
@@ -192,6 +192,36 @@ SIMDBEZIER_PART void sweep_bands(const GridTask<T>& task, const RowPiece<T>& pie
       with_one_of<5, 6, 7, 8>(count, sweep_count);
     }
     first = end;
+  }
+}
+
+/// Whether rows of whole cache lines go straight to memory in bands: where two registers are a
+/// line. Streaming stores overlap with arithmetic; copies from staging take their own time. But a
+/// line has to be stored at once, and memory takes lines at a third to a half of its rate where
+/// they leave others out, or where several planes come by turns that lie at the same place within a
+/// page. So bands are swept plane by plane. Registers of a line stream tile by tile. Normals take
+/// so much arithmetic, and six planes at once, that staging is faster.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kStreamsRows = kLineWide<RegisterPair<vec<T>>> &&
+                              (kOutputs == detail::kPosition ||
+                               kOutputs == detail::kPositionDerivatives);
+
+/// Streams all rows of patches [patch, end), which are whole lines, in groups of two or three
+/// lines: one alone would leave out lines.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART void stream_rows(const GridTask<T>& task, const RowPiece<T>& piece,
+                                 std::size_t patch, std::size_t end) {
+  constexpr std::size_t kLine = 64 / sizeof(T);
+  if (task.nu == kLine) {
+    return sweep_band<kOutputs, 1, false, true>(task, piece, 0, kLine, patch, end);
+  }
+  std::size_t first = 0;
+  if (task.nu / kLine % 2 != 0) {
+    sweep_band<kOutputs, 3, false, true>(task, piece, 0, 3 * kLine, patch, end);
+    first = 3 * kLine;
+  }
+  for (; first < task.nu; first += 2 * kLine) {
+    sweep_band<kOutputs, 2, false, true>(task, piece, first, first + 2 * kLine, patch, end);
   }
 }
 

@@ -19,7 +19,6 @@
 #include "kernels/fast/streamed_lines.hpp"
 #include "kernels/fast/streamed_normals.hpp"
 #include "kernels/fast/streamed_planes.hpp"
-#include "kernels/fast/streamed_rows.hpp"
 #include "kernels/grid/tile_sweeps.hpp"
 #include "src/tables/grid_strategy.hpp"
 
