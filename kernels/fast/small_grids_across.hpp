@@ -118,19 +118,16 @@ struct ComponentAcross {
     load_values_across<kEdges>(first.corner, detail::kEdgeBlock, corner);
   }
 
-  SIMDBEZIER_PART void column(V x, V q[kOrder]) const {
-    for (std::size_t l = 0; l < kOrder; ++l) {
-      const V k[kOrder] = {matrix[l], matrix[kOrder + l], matrix[2 * kOrder + l],
-                           matrix[3 * kOrder + l]};
-      q[l] = horner(k, x);
-    }
-  }
   SIMDBEZIER_PART void column(V x, V q[kOrder], V dq[kOrder]) const {
     for (std::size_t l = 0; l < kOrder; ++l) {
       const V k[kOrder] = {matrix[l], matrix[kOrder + l], matrix[2 * kOrder + l],
                            matrix[3 * kOrder + l]};
       q[l] = horner(k, x, dq[l]);
     }
+  }
+  SIMDBEZIER_PART void column(V x, V q[kOrder]) const {
+    V dq[kOrder]; // takes no instruction where nothing reads it
+    column(x, q, dq);
   }
   SIMDBEZIER_PART void edge_cubic(std::size_t number, V e[kOrder]) const {
     for (std::size_t p = 0; p < kOrder; ++p) {

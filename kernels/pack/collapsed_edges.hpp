@@ -15,19 +15,21 @@
 
 #include <algorithm>
 #include <limits>
-#include <type_traits>
 
 #include "kernels/pack/double_double.hpp"
 #include "src/storage/bicubic_layout.hpp"
 #include "src/storage/one_point.hpp"
+#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kEdges;
 
 /// Finds the edges of a group of patches that are points, and packs them anew.
-template <typename Task>
+template <typename T, typename S>
 class CollapsedEdges {
+  using Task = detail::PackTask<T, S>;
+
 public:
   explicit CollapsedEdges(const Task& task) : task_(task), wanted_(task.shape.rational) {}
 
@@ -63,8 +65,6 @@ public:
   }
 
 private:
-  using T = std::remove_pointer_t<decltype(Task::edges)>;
-
   /// Which side of a cell an edge is: of which direction, and at its end.
   struct Side {
     bool along_u;
@@ -81,7 +81,7 @@ private:
 
   /// The control points of an edge, as given.
   struct EdgePoints {
-    const std::remove_pointer_t<decltype(Task::control_points)>* first;
+    const S* first;
     std::size_t step; ///< in values
     std::size_t count;
     std::size_t channels;

@@ -251,7 +251,7 @@ private:
   const std::size_t order_v_;
   const std::size_t components_;
   NetReader<T, S> reader_;
-  CollapsedEdges<detail::PackTask<T, S>> collapsed_;
+  CollapsedEdges<T, S> collapsed_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   TinyEvenCoefficients<T> tiny_; ///< of a cell
