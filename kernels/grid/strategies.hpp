@@ -265,35 +265,24 @@ struct TileByTile {
 /// Some strategies, in the order in which they are asked.
 template <typename... Strategies>
 struct StrategyList {
-  /// Returns the first one that is allowed and applies to (task, …), or `otherwise`.
-  template <typename T, typename... Piece>
-  static SIMDBEZIER_PART GridStrategy find(const GridTask<T>& task, GridStrategy otherwise,
+  /// Calls visit.operator()<Strategy>() with the first one that is allowed, as tiles always are,
+  /// and applies to (task, …). Returns whether there is one.
+  template <typename T, typename Visit, typename... Piece>
+  static SIMDBEZIER_INLINE bool with_first(GridTask<T>& task, const Visit& visit,
                                            const Piece&... piece) {
     const auto takes = [&]<typename Strategy>() SIMDBEZIER_INLINE_LAMBDA {
       if constexpr (Strategy::kExists) {
-        return task.allowed.has(Strategy::kName) && Strategy::applies(task, piece...);
-      } else {
-        return false;
-      }
-    };
-    GridStrategy found = otherwise;
-    static_cast<void>(
-        ((takes.template operator()<Strategies>() ? (found = Strategies::kName, true) : false) ||
-         ...));
-    return found;
-  }
-
-  /// Calls visit.operator()<Strategy>() with the one of this name.
-  template <typename Visit>
-  static SIMDBEZIER_INLINE void with(GridStrategy name, const Visit& visit) {
-    const auto try_one = [&]<typename Strategy>() SIMDBEZIER_INLINE_LAMBDA {
-      if constexpr (Strategy::kExists) {
-        if (name == Strategy::kName) {
+        constexpr GridStrategy kName = Strategy::kName;
+        if ((kName == GridStrategy::tiles || task.allowed.has(kName)) &&
+            Strategy::applies(task, piece...)) {
+          task.taken.add(kName);
           visit.template operator()<Strategy>();
+          return true;
         }
       }
+      return false;
     };
-    (try_one.template operator()<Strategies>(), ...);
+    return (takes.template operator()<Strategies>() || ...);
   }
 };
 
