@@ -138,7 +138,6 @@ SIMDBEZIER_PART void store_ends(const CurveTask<T>& task, const CurveShape& shap
 template <std::size_t kKnownOrder, std::size_t kDepth, typename T>
 SIMDBEZIER_KERNEL void sweep_components(const CurveTask<T>& shared_task) {
   using V = vec<T>;
-  // Copies, because stores through vector types might change anything that others can see.
   const CurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
   assume_order<kKnownOrder>(shape);

@@ -71,7 +71,6 @@ template <std::size_t kKnownOrder, typename T>
 SIMDBEZIER_KERNEL void write_triples(const CurveTask<T>& shared_task) {
   constexpr std::size_t kBatch = 2048 / sizeof(T);
   constexpr std::size_t kAll = kLanes<vec<T>>;
-  // Copies, because stores through vector types might change anything that others can see.
   const CurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
   assume_order<kKnownOrder>(shape);

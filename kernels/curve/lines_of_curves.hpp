@@ -153,7 +153,6 @@ SIMDBEZIER_KERNEL void fill_lines(const CurveTask<T>& shared_task,
                                   const CurveRows<kTriples, T>& shared_rows) {
   using Lines = CurveLines<kCurves, kTriples, T>;
   constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
-  // Copies, because stores through vector types might change anything that others can see.
   const CurveTask<T> task = shared_task;
   const CurveRows<kTriples, T> rows = shared_rows;
   const std::size_t stride = shared_task.shape->values();

@@ -110,7 +110,6 @@ template <typename T>
 SIMDBEZIER_KERNEL void sweep_normal_bands(const GridTask<T>& shared_task,
                                           const RowPiece<T>& shared_piece, std::size_t patch,
                                           std::size_t end) {
-  // Copies, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const RowPiece<T> piece = shared_piece;

@@ -133,7 +133,6 @@ template <detail::OutputSet kOutputs, std::size_t kCount, bool kSingle, bool kSt
 SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
                                   std::size_t first, std::size_t end, std::size_t patch,
                                   std::size_t last_patch) {
-  // Copies, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const RowPiece<T> piece = shared_piece;

@@ -8,9 +8,7 @@
 //   inner     group g, lane r   inner column g, inner row r: the row in Y
 //   border    group s, lane e   inner sample s of edge e: along the edge
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
-// operations of a sample are those of the tiles, and so are its bits. So go positions of floats on
-// AVX-512. AVX2, derivatives, and grids of two rows or columns, which are all border, take patches
-// as lanes (fast/small_grids_across.hpp), and so do some doubles of AVX-512; others take tiles.
+// operations of a sample are those of the tiles, and so are its bits.
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,6 @@ SIMDBEZIER_KERNEL void stream_tile(const GridTask<T>& shared_task, const RowPiec
   using Stream = LineStream<V, true>;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
   constexpr Output kPlaneOutputs[] = {Output::position, Output::du, Output::dv};
-  // A copy, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const AcrossPiece<T> across(piece);

@@ -175,7 +175,6 @@ SIMDBEZIER_RARE void resolve_streamed(const GridTask<T>& task, const RowPiece<T>
 /// normals, whose second look stores them once more.
 template <typename T>
 SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowPiece<T>& piece) {
-  // A copy, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const bool goes_on = piece.rows() * task.nu == task.patch_step;

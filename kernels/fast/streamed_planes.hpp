@@ -60,7 +60,6 @@ template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPiece<T>& piece) {
   using V = vec<T>;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
-  // A copy, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const std::size_t nu = task.nu;

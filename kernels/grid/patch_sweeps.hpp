@@ -113,7 +113,6 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
                                           const SomeTile& tile, std::size_t patch,
                                           std::size_t last_patch) {
   using V = typename SomeTile::Vector;
-  // Copies, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
   task.nu = piece.columns(task.nu);
   assume<kKnown>(task);

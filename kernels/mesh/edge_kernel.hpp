@@ -247,7 +247,6 @@ SIMDBEZIER_PART void edge_points(const detail::EdgeTask<T>& task,
 template <typename T>
 SIMDBEZIER_KERNEL void edge_kernel(detail::EdgeTask<T>& shared_task) {
   shared_task.executed = Isa::SIMDBEZIER_ISA;
-  // A copy, because stores through vector types might change anything that others can see.
   const detail::EdgeTask<T> task = shared_task;
   for (std::size_t k = 0; k < task.count; ++k) {
     edge_points(task, shared_task, task.jobs[k]);

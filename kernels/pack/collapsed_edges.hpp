@@ -1,16 +1,9 @@
-// Edges of rational patches whose control points are all one (src/storage/one_point.hpp): a pole of
-// a sphere, the tip of a cone.
+// Edges of rational patches whose control points are all one (src/storage/one_point.hpp) are packed
+// around their point, as sets with local origins are: docs/accuracy.md, "Edges that are points".
 //
-// Such an edge stays where it is whatever its weights, but evaluated as h / w its derivative is the
-// difference of two equal products, each rounded: noise instead of zero, and with it curvatures.
-// It is therefore packed around its point, as sets with local origins are: numerators that are
-// zero. An edge u = const keeps its weights, by which kernels divide derivatives across it as well,
-// unless they might be computed as zero where others are 1/u times as large: 0/0 is no number.
+// An edge u = const keeps its weights, by which kernels divide derivatives across it as well.
 // An edge v = const without an origin is the point with a weight of 1: from such edges, kernels
 // take only the point and derivatives along it, so they need not know that it is a point.
-//
-// Both ends of an edge keep their own control points, which other patches share; of homogeneous
-// ones they may differ by a rounding. Between them the edge is where the nearer_end() is.
 #pragma once
 
 #include <algorithm>

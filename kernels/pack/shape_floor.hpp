@@ -7,32 +7,10 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Finds what the quick test of normals compares with, for patches in space; zero for others.
-///
-/// Polynomial, one floor for the patch: |du| <= m max|P[j][i+1] - P[j][i]|, and du's error is some
-/// u times that, and what packing has left.
-///
-/// Rational, two sizes, E_u w^2 and E_v w^2, because errors depend on the sample's weight. With
-/// h = w (P - O), which the kernels form beside w, and
-///     w du = h_u - S w_u,  S = h / w,
-/// let R >= |P - O|, and so >= |S|, since S is in the hull; W the largest weight; over neighbours
-/// P, P' in u, D the largest max(w,w') |P' - P| and B the largest |w' - w|. Errors of polynomials
-/// are K u times their largest control value (docs/accuracy.md), which is
-///     R W of h,  W of w,  m (D + B R) of h_u, as w'p' - wp = w'(p' - p) + (w' - w) p,  m B of w_u.
-/// Hence S is wrong by K u 2 R W / w, and as |w_u| <= m B, du by at most K u times
-///     (m (D + B R) + R m B + m B 2 R W / w) / w <= m (D + 4 B R) W / w^2 = E_u,
-/// with the quotient's own roundings by K + 3. The error of the last division is left out: it makes
-/// du longer, but does not turn it. The test
-///     |du x dv|^2 > 2 c^2 (E_u^2 |dv|^2 + E_v^2 |du|^2)  [>= c^2 (E_u |dv| + E_v |du|)^2]
-/// has c = 2^-10 (in double 2^-20, stricter): what passes needs no second look, as it is turned by
-/// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
-/// <= m (D + 2 B R) / w: there w itself is known well enough.
-///
-/// Errors of packing: packing_doubt_of() for polynomials with one cell. Of others, which it would
-/// judge too harshly, let s be the sum of all terms of a packed polynomial, at their largest. No
-/// control value is larger, nor any coefficient of a row or a column on the way, so that both
-/// directions together leave at most (2^m + 2^n) s times the roundings of a sum (packing_doubt()).
-/// If that is e_h in h and e_w in w, they add 6 m (e_h + R e_w) / w to du: E_u is at least that in
-/// units of c.
+/// Polynomial patches have one floor: |du| <= m max|P[j][i+1] - P[j][i]|, and du's error is some u
+/// times that, and what packing has left. Rational ones have two sizes, E_u w^2 and E_v w^2,
+/// because errors depend on the sample's weight: docs/accuracy.md, "Normals", has the proof and the
+/// letters.
 template <typename T, typename W>
 class ShapeFloor {
 public:

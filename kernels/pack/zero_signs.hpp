@@ -1,15 +1,8 @@
 // The sign of zero on edges and curves of degree 3 to 5, whose even part E(X^2) and odd part
-// X O(X^2) are evaluated apart and then added.
-//
-// Reversing an edge turns the signs of X and O, so that both sides add equal numbers, but where O
-// vanishes they may be zeros of different signs. That shows in one case: E is -0, and then one side
-// gets +0 and the other -0. E is -0 where a fused step rounds what is negative and below half the
-// smallest denormal; with a constant of zero that happens for all small X at once, if the even
-// coefficients are tiny. The constant of such edges and curves is therefore packed as the smallest
-// negative denormal: E then stays negative, and the error is that denormal. Both sides know the
-// same even coefficients and decide alike, whatever the odd ones are.
-//
-// It is done for all instruction sets, since a packed set does not know which one evaluates it.
+// X O(X^2) are evaluated apart and then added. Where O vanishes and E is rounded to -0, both sides
+// of an edge may get zeros of different signs. If that would happen at all small X, the constant is
+// packed as the smallest negative denormal, for all instruction sets: docs/accuracy.md, "Zeros on
+// edges that underflow".
 #pragma once
 
 #include <limits>

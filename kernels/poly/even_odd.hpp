@@ -1,22 +1,11 @@
 // Polynomials of degree 3 to 5 as even and odd part, p(Y) = E(Y^2) + Y O(Y^2): for everything that
-// is evaluated as a row, an edge or a curve.
+// is evaluated as a row, an edge or a curve, by the rule in src/storage/even_odd_rule.hpp. Rows Y
+// and -Y of a uniform grid share both parts. Since an edge does not know what lies on its other
+// side, a single row takes these formulas as well: p(-Y) is E - Y O bit for bit, as the squares are
+// the same and rounding to nearest is odd.
 //
-// Rows of a uniform grid come in pairs Y and -Y, which share both parts: a pair costs three
-// products and two sums a sample and component instead of six multiply-adds. Since an edge does not
-// know what lies on its other side, everything of these degrees takes these formulas, a single row
-// as well: p(-Y) is E - Y O bit for bit, as the squares are the same and rounding to nearest is
-// odd.
-//
-// The rule stands in src/storage/even_odd_rule.hpp, by the degree of the one-dimensional polynomial
-// alone. Columns (a patch's first direction) keep Horner's rule: nothing there is shared. Degrees 1
-// and 2 would gain nothing, and from degree 6 on rows Y and -Y lie in different cells
-// (net_shape.hpp).
-//
-// The bits of every result depend on this order of operations, with Z = Y * Y rounded:
-//   value   E + Y * O, both parts by Horner's rule in Z; the product is rounded before the sum
-//   slope   (O + 2 Z O') + 2 Y * E', where ' is by Z
-//   half of the second derivative   (E' + 4 Z E''/2) + 3 Y * O' (+ 4 Z Y O''/2, degree 5)
-// with E', O' and their halved derivatives by synthetic division.
+// The bits of every result depend on the order of operations, which stands in docs/accuracy.md,
+// "The scheme".
 #pragma once
 
 #include "kernels/simd/operands.hpp"

@@ -1,16 +1,10 @@
 // The leading coefficient of du x dv (src/exact/normal_series.hpp) for samples of one polynomial
 // patch, in plain doubles and a register at once: nearly all samples that need a second look are
-// decided so. Nothing is fused, so that the bits are the same on every instruction set.
+// decided so. Nothing is fused, so that the bits are the same on every instruction set. The values
+// are those of NormalSeries, operation by operation: what is left out adds zeros there.
 //
-// Between the edges that is du x dv itself. On an edge, say v = 0, Bernstein polynomial j in v
-// begins with power j of the way to the middle, binomial(n,j) / 2^j of it. Where the first rows of
-// differences are zero, the tangent's first coefficient is therefore the sum of the next row alone,
-// with that factor; in a corner, of the first diagonal that is not zero. The normal's is the cross
-// product of those of the tangents. The values are those of NormalSeries, operation by operation:
-// what is left out adds zeros there.
-//
-// docs/accuracy.md, "Normals", has the proof of the bound, which is never below that of
-// NormalSeries: what is certain here is certain there.
+// docs/accuracy.md, "Normals", says which coefficient leads, and has the proof of the bound, which
+// is never below that of NormalSeries: what is certain here is certain there.
 //
 // Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 3.
 #pragma once

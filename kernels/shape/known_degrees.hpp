@@ -138,7 +138,6 @@ SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shap
 
 template <typename P, typename T>
 SIMDBEZIER_KERNEL void sweep_known(const GridTask<T>& shared_task) {
-  // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);
   const bool pairs = kInPairs<P> && pairs_pay(task);

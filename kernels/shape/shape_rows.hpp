@@ -218,7 +218,6 @@ SIMDBEZIER_PART std::size_t register_start(std::size_t next, std::size_t nu, std
 
 template <typename P, typename T>
 SIMDBEZIER_KERNEL void sweep_shape(const GridTask<T>& shared_task) {
-  // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);
   RowsByCell<T> rows(task, shape.cells_v(), ColumnSweep<P, T>::kPositions);
