@@ -79,8 +79,7 @@ SIMDBEZIER_KERNEL NormalBends<V> bends_of(const RateScratch<V>& scratch, const C
         return (b.uu * step.uu + b.vv * step.vv) + b.uv * mixed;
       });
     };
-    const V zero_less = zero - step.uv;
-    most = larger_of<V>(most, smaller_of<V>(bend(step.uv), bend(zero_less)));
+    most = larger_of<V>(most, smaller_of<V>(bend(step.uv), bend(zero - step.uv)));
   }
   most = larger_of<V>(larger_of<V>(largest.uu * step.uu, largest.vv * step.vv), most);
   const V eighth = broadcast<V>(T(0.125));
